@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace endowire::sim {
+
+/// Where the sheath ends in the vessel. The sheath is a straight rigid tube behind that point.
+struct Access {
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< into the vessel; normalised on use
+};
+
+/// The vessel wall as an elastic layer; see contact/wall.hpp for the formulas and sources.
+struct WallSpec {
+  double modulus_mpa = 1.0;            ///< incremental modulus, 0.1 … 1000
+  double poisson_ratio = 0.45;         ///< 0 … 0.49
+  double thickness_over_radius = 0.15; ///< wall thickness / lumen radius, 0.01 … 1
+  double max_deflection_mm = 0.15;     ///< hard cap, 0.01 … 0.18; min with half the wall and a third of the tissue
+};
+
+/// Numerical parameters; none of them shapes the result (tests change each tenfold).
+struct SolverSpec {
+  double rod_length_mm = 4.0;           ///< longest rod, 0.2 … 20
+  double correction_tolerance_mm = 1e-3;
+  double correction_tolerance_deg = 1e-2;
+  double force_tolerance = 1e-6;        ///< of the largest internal force or moment
+  double proximal_scale = 1.0;          ///< scales the term that guides through a snap
+  double stick_stiffness_ratio = 1.0;   ///< tangential over normal wall stiffness while sticking
+  double grip_stiffness_n_per_mm = 1000.0;
+  int max_iterations = 60;              ///< Newton iterations before a step is split
+  int max_splits = 6;                   ///< halvings of one step before it is reported as not converged
+};
+
+struct SimulationSpec {
+  double max_advance_mm = 1.0;   ///< per step, 0.001 … 10
+  double max_torque_deg = 10.0;  ///< per step, 0.01 … 90
+  Eigen::Vector3d gravity_m_per_s2 = Eigen::Vector3d(0.0, 9.81, 0.0);
+  double blood_density_g_per_mm3 = 1.06e-3;  ///< buoyancy, 0 … 2e-3
+  double perforation_force_n = 1.5;          ///< tip force that counts as a perforation event
+  WallSpec wall;
+  SolverSpec solver;
+};
+
+/// What one hand does during a motion.
+struct HandMotion {
+  int instrument = 1;  ///< counted from 1, outermost first
+  double advance_mm = 0.0;
+  double torque_deg = 0.0;
+};
+
+/// The hands of one motion move together; motions follow one another.
+struct Motion {
+  double duration_s = 1.0;
+  std::vector<HandMotion> hands;
+};
+
+/// What the hands do to one instrument in one step.
+struct Command {
+  double advance_mm = 0.0;  ///< > 0 into the vessel
+  double torque_rad = 0.0;  ///< > 0 right-handed about the direction of advance
+};
+
+}  // namespace endowire::sim

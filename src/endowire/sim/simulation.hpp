@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "endowire/rod/instrument.hpp"
+#include "endowire/sim/scene.hpp"
+#include "endowire/sim/snapshot.hpp"
+#include "endowire/sim/state.hpp"
+#include "endowire/solve/solve_report.hpp"
+#include "endowire/vessel/field.hpp"
+
+namespace endowire::sim {
+
+enum class EventKind { snap, perforation, kink, exit, too_narrow, hand_slip, not_converged };
+
+struct Event {
+  EventKind kind = EventKind::snap;
+  double value = 0.0;  ///< force [N], curvature [1/mm], opening number, slip [mm], … as the kind says
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
+};
+
+/// What one step did: numbers only, no allocation but the events.
+struct StepReport {
+  solve::SolveReport solve;          ///< of the last (or the failed) sub-step
+  bool converged = false;            ///< every sub-step converged and was verified against the field
+  int detections = 0;                ///< collision detections of the whole wire
+  int verifications = 0;             ///< checks of the final state against the field
+  int splits = 0;                    ///< halvings of the command
+  int newton_iterations = 0;         ///< over all sub-steps
+  int rods = 0;
+  int contact_samples = 0;
+  bool snapped = false;
+  double inserted_length_mm = 0.0;
+  double hand_slip_mm = 0.0;         ///< commanded minus achieved advance in this step
+  double push_force_n = 0.0;         ///< force of the hand on the wire, > 0 pushes
+  double torque_n_mm = 0.0;          ///< torque of the hand on the wire
+  double max_wall_deflection_mm = 0.0;
+  double max_force_5mm_n = 0.0;      ///< wall force summed over a sliding 5 mm window, largest
+  double tip_force_n = 0.0;          ///< wall force within the last 5 mm, tip cap included
+  std::vector<Event> events;
+};
+
+/// One instrument in one vessel: the loop of the method, one command at a time.
+///
+/// No globals, no I/O, no threads. The state is a value: copy it, compare it, put it back.
+class Simulation {
+ public:
+  /// @throws base::InputError when the access lies outside the lumen, or the wire is wider than it there.
+  Simulation(std::shared_ptr<const vessel::Field> field, rod::Instrument instrument, Access access, SimulationSpec spec);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  /// Moves the hand and finds the new equilibrium. Commands larger than the step limits are taken in
+  /// equal sub-steps. Never throws for a numerical outcome: read the report.
+  const StepReport& step(const Command& command);
+
+  [[nodiscard]] const State& state() const;
+  /// Puts back a state that this simulation, or one of the same vessel, instrument, access and spec, gave.
+  void restore(const State& state);
+  /// Bits of the state, the same for the same history on the same binary.
+  [[nodiscard]] std::uint64_t state_hash() const;
+  /// The shape and its forces for viewers and files.
+  void snapshot(Snapshot& out) const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace endowire::sim
