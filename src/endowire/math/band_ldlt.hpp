@@ -1,0 +1,72 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace endowire::math {
+
+/// Symmetric band matrix, lower part, with its LDLᵀ factorisation and inertia.
+///
+///   A = L D Lᵀ,  L unit lower triangular with the band of A, D diagonal; no pivoting.
+///
+/// Without pivoting the factorisation is stable when A is positive definite, which is the only case whose
+/// solution is used; the number of negative entries of D equals the number of negative eigenvalues (Sylvester)
+/// and says when it is not.
+/// Cost      n·w² multiplications for half-bandwidth w.
+/// Storage   row r holds columns r − w … r, the diagonal last.
+class BandMatrix {
+ public:
+  /// Unknowns of one joint: x, y, z and the turn of the rod behind it.
+  static constexpr int kBlock = 4;
+  /// A joint's bending couples x, θ of the joint before it to x of the joint after it.
+  static constexpr int kHalfBandwidth = 10;
+
+  /// Keeps its memory when it shrinks, so that a step allocates nothing after warm-up.
+  void resize(int size) {
+    size_ = size;
+    rows_.resize(static_cast<std::size_t>(size));
+    factor_.resize(static_cast<std::size_t>(size));
+    pivots_.resize(static_cast<std::size_t>(size));
+  }
+  void reserve(int size) {
+    rows_.reserve(static_cast<std::size_t>(size));
+    factor_.reserve(static_cast<std::size_t>(size));
+    pivots_.reserve(static_cast<std::size_t>(size));
+  }
+  void set_zero() { std::fill(rows_.begin(), rows_.end(), Row{}); }
+  [[nodiscard]] int size() const { return size_; }
+
+  /// Entry (row, column) of the lower part: 0 ≤ row − column ≤ kHalfBandwidth.
+  [[nodiscard]] double& lower(int row, int column) {
+    return rows_[static_cast<std::size_t>(row)][static_cast<std::size_t>(column - row + kHalfBandwidth)];
+  }
+  [[nodiscard]] double lower(int row, int column) const {
+    return rows_[static_cast<std::size_t>(row)][static_cast<std::size_t>(column - row + kHalfBandwidth)];
+  }
+  /// Adds to the symmetric pair (a, b), (b, a).
+  void add(int a, int b, double value) { a >= b ? lower(a, b) += value : lower(b, a) += value; }
+
+  /// Makes `index` an identity row: its unknown stays where it is.
+  void fix(int index);
+
+  /// Factorises A + diag(shift); A itself is kept. `shift` may be empty.
+  /// @return the number of pivots that are not positive: 0 means positive definite.
+  int factorise(const std::vector<double>& shift);
+
+  /// Solves with the last factorisation, in place.
+  void solve(std::vector<double>& x) const;
+
+  /// y = A x.
+  void multiply(const std::vector<double>& x, std::vector<double>& y) const;
+
+ private:
+  using Row = std::array<double, kHalfBandwidth + 1>;
+  int size_ = 0;
+  std::vector<Row> rows_;
+  std::vector<Row> factor_;
+  std::vector<double> pivots_;
+};
+
+}  // namespace endowire::math

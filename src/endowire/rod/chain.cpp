@@ -1,0 +1,276 @@
+#include "endowire/rod/chain.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "endowire/base/contract.hpp"
+#include "endowire/math/transport.hpp"
+
+namespace endowire::rod {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// 1 g·m/s² = 1e-3 N.
+constexpr double kGramMetreToNewton = 1e-3;
+
+}  // namespace
+
+void ChainShape::reserve(int rods) {
+  joints_mm.reserve(at(rods + 1));
+  frames.reserve(at(rods));
+  spin_rad.reserve(at(rods));
+  twist_rad.reserve(at(rods + 1));
+}
+
+void ChainShape::resize(int rods) {
+  joints_mm.resize(at(rods + 1), Eigen::Vector3d::Zero());
+  frames.resize(at(rods), Frame::Identity());
+  spin_rad.resize(at(rods), 0.0);
+  twist_rad.resize(at(rods + 1), 0.0);
+}
+
+void ChainMaterial::reserve(int rods) {
+  arc_mm.reserve(at(rods + 1));
+  joints.reserve(at(rods + 1));
+  length_mm.reserve(at(rods));
+  stretch_n_per_mm.reserve(at(rods));
+  weight_n.reserve(at(rods + 1));
+}
+
+void ChainMaterial::resize(int rods) {
+  arc_mm.resize(at(rods + 1));
+  joints.resize(at(rods + 1));
+  length_mm.resize(at(rods));
+  stretch_n_per_mm.resize(at(rods));
+  weight_n.resize(at(rods + 1));
+}
+
+void fill_material(const MaterialLine& line, const std::vector<double>& arc_mm, double gravity_m_per_s2,
+                   double fluid_density_g_per_mm3, ChainMaterial& material) {
+  ENDOWIRE_EXPECTS(arc_mm.size() >= 3, "a chain has at least two rods");
+  material.resize(static_cast<int>(arc_mm.size()) - 1);
+  material.arc_mm.assign(arc_mm.begin(), arc_mm.end());
+  fill_material_from(line, 0, gravity_m_per_s2, fluid_density_g_per_mm3, material);
+}
+
+void fill_material_from(const MaterialLine& line, int first, double gravity_m_per_s2, double fluid_density_g_per_mm3,
+                        ChainMaterial& material) {
+  const int rods = material.rods();
+  const auto& arc = material.arc_mm;
+  for (int i = std::max(0, first - 1); i < rods; ++i) {
+    material.length_mm[at(i)] = arc[at(i + 1)] - arc[at(i)];
+    material.stretch_n_per_mm[at(i)] = line.axial_rigidity_n(arc[at(i)], arc[at(i + 1)]) / material.length_mm[at(i)];
+  }
+  for (int j = std::max(0, first - 1); j <= rods; ++j) {
+    const double from = j == 0 ? arc[0] : 0.5 * (arc[at(j - 1)] + arc[at(j)]);
+    const double to = j == rods ? arc[at(rods)] : 0.5 * (arc[at(j)] + arc[at(j + 1)]);
+    const double mass = line.mass_g(from, to) - fluid_density_g_per_mm3 * line.volume_mm3(from, to);
+    material.weight_n[at(j)] = mass * gravity_m_per_s2 * kGramMetreToNewton;
+    JointMaterial& joint = material.joints[at(j)];
+    joint.span_mm = to - from;
+    joint.bend_n_mm2.setConstant(line.flexural_rigidity_n_mm2(from, to));
+    joint.rest_bend_rad = line.rest_bend_rad(from, to);
+    joint.twist_n_mm2 = line.torsional_rigidity_n_mm2(from, to);
+    joint.kink_per_mm = line.kink_per_mm(from, to);
+  }
+}
+
+double axial_force_n(const ChainMaterial& material, const ChainShape& shape, int rod) {
+  const double length = (shape.joints_mm[at(rod)] - shape.joints_mm[at(rod + 1)]).norm();
+  return material.stretch_n_per_mm[at(rod)] * (length - material.length_mm[at(rod)]);
+}
+
+double chain_energy(const ChainMaterial& material, const ChainShape& shape) {
+  const int rods = shape.rods();
+  double energy = 0.0;
+  for (int i = 0; i < rods; ++i) {
+    const double stretch =
+        (shape.joints_mm[at(i)] - shape.joints_mm[at(i + 1)]).norm() - material.length_mm[at(i)];
+    energy += 0.5 * material.stretch_n_per_mm[at(i)] * stretch * stretch;
+  }
+  for (int j = 1; j < rods; ++j) {
+    energy += joint_energy(material.joints[at(j)], shape.frames[at(j)], shape.frames[at(j - 1)], shape.twist_rad[at(j)]);
+  }
+  return energy;
+}
+
+namespace {
+
+using Vector11 = Eigen::Matrix<double, 11, 1>;
+using Matrix11 = Eigen::Matrix<double, 11, 11>;
+
+/// Lays a joint's derivatives from the turns of its rods onto the eleven unknowns x, θ, x, θ, x.
+///
+///   turnₐ = mₐ·δt/|t| − (e·δt)(mₐ·δt)/|t|² + …,  third turn = δθ
+///
+/// The quadratic part is why the gradient enters the Hessian.
+void add_joint(const JointDerivatives& d, const Frame& hand_side, double hand_length, const Frame& tip_side,
+               double tip_length, int first, math::BandMatrix& hessian, std::vector<double>& gradient) {
+  Eigen::Matrix<double, 6, 11> turn = Eigen::Matrix<double, 6, 11>::Zero();
+  for (int a = 0; a < 2; ++a) {
+    turn.block<1, 3>(a, 4) = hand_side.col(a).transpose() / hand_length;
+    turn.block<1, 3>(a, 8) = -turn.block<1, 3>(a, 4);
+    turn.block<1, 3>(3 + a, 0) = tip_side.col(a).transpose() / tip_length;
+    turn.block<1, 3>(3 + a, 4) = -tip_side.col(a).transpose() / tip_length;
+  }
+  turn(2, 7) = 1.0;
+  turn(5, 3) = 1.0;
+  const Vector11 g = turn.transpose() * d.gradient;
+  Matrix11 h = turn.transpose() * (d.hessian * turn);
+  const auto add_turning = [&h](const Eigen::Vector3d& turned, const Eigen::Vector3d& tangent, double length, int tip,
+                                int hand) {
+    const Eigen::Matrix3d block =
+        -(tangent * turned.transpose() + turned * tangent.transpose()) / (length * length);
+    h.block<3, 3>(tip, tip) += block;
+    h.block<3, 3>(hand, hand) += block;
+    h.block<3, 3>(tip, hand) -= block;
+    h.block<3, 3>(hand, tip) -= block;
+  };
+  add_turning(hand_side.leftCols<2>() * d.gradient.segment<2>(0), hand_side.col(2), hand_length, 4, 8);
+  add_turning(tip_side.leftCols<2>() * d.gradient.segment<2>(3), tip_side.col(2), tip_length, 0, 4);
+  for (int r = 0; r < 11; ++r) {
+    gradient[at(first + r)] += g[r];
+    for (int c = 0; c <= r; ++c) hessian.lower(first + r, first + c) += h(r, c);
+  }
+}
+
+double add_stretch(double stiffness, double rest_length, const Eigen::Vector3d& t, int first, math::BandMatrix& hessian,
+                   std::vector<double>& gradient) {
+  const double length = t.norm();
+  const Eigen::Vector3d e = t / length;
+  const double force = stiffness * (length - rest_length);
+  const Eigen::Matrix3d h =
+      (stiffness - force / length) * e * e.transpose() + force / length * Eigen::Matrix3d::Identity();
+  for (int r = 0; r < 3; ++r) {
+    gradient[at(first + r)] += force * e[r];
+    gradient[at(first + 4 + r)] -= force * e[r];
+    for (int c = 0; c <= r; ++c) {
+      hessian.lower(first + r, first + c) += h(r, c);
+      hessian.lower(first + 4 + r, first + 4 + c) += h(r, c);
+    }
+    for (int c = 0; c < 3; ++c) hessian.lower(first + 4 + r, first + c) -= h(r, c);
+  }
+  return 0.5 * stiffness * (length - rest_length) * (length - rest_length);
+}
+
+}  // namespace
+
+double add_chain_derivatives(const ChainMaterial& material, const ChainShape& shape, math::BandMatrix& hessian,
+                             std::vector<double>& gradient) {
+  const int rods = shape.rods();
+  double energy = 0.0;
+  for (int i = 0; i < rods; ++i) {
+    energy += add_stretch(material.stretch_n_per_mm[at(i)], material.length_mm[at(i)],
+                          shape.joints_mm[at(i)] - shape.joints_mm[at(i + 1)], 4 * i, hessian, gradient);
+  }
+  JointDerivatives d;
+  for (int j = 1; j < rods; ++j) {
+    const double hand_length = (shape.joints_mm[at(j)] - shape.joints_mm[at(j + 1)]).norm();
+    const double tip_length = (shape.joints_mm[at(j - 1)] - shape.joints_mm[at(j)]).norm();
+    joint_derivatives(material.joints[at(j)], shape.frames[at(j)], shape.frames[at(j - 1)], shape.twist_rad[at(j)], d);
+    add_joint(d, shape.frames[at(j)], hand_length, shape.frames[at(j - 1)], tip_length, 4 * (j - 1), hessian, gradient);
+    energy += d.energy_mj;
+  }
+  return energy;
+}
+
+void RetractScratch::reserve(int rods) {
+  for (auto* v : {&target, &diagonal, &off, &rhs}) v->reserve(at(rods));
+  tangent.reserve(at(rods));
+}
+
+void RetractScratch::resize(int rods) {
+  for (auto* v : {&target, &diagonal, &off, &rhs}) v->resize(at(rods));
+  tangent.resize(at(rods));
+}
+
+namespace {
+
+/// One Newton step of the length constraints: J Jᵀ λ = c, x −= Jᵀ λ, a tridiagonal system in λ.
+/// Returns the largest violation found before the step.
+double project_lengths(const std::vector<char>& held, RetractScratch& s, std::vector<Eigen::Vector3d>& x) {
+  const int rods = static_cast<int>(s.target.size());
+  double largest = 0.0;
+  for (int i = 0; i < rods; ++i) {
+    s.tangent[at(i)] = x[at(i)] - x[at(i + 1)];
+    const double length = s.tangent[at(i)].norm();
+    s.tangent[at(i)] /= length;
+    s.rhs[at(i)] = length - s.target[at(i)];
+    const double tip = held[at(i)] ? 0.0 : 1.0;
+    const double hand = held[at(i + 1)] ? 0.0 : 1.0;
+    if (tip + hand == 0.0) {
+      s.diagonal[at(i)] = 1.0;
+      s.rhs[at(i)] = 0.0;
+    } else {
+      s.diagonal[at(i)] = tip + hand;
+      largest = std::max(largest, std::abs(s.rhs[at(i)]));
+    }
+    if (i > 0) s.off[at(i)] = held[at(i)] ? 0.0 : -s.tangent[at(i - 1)].dot(s.tangent[at(i)]);
+  }
+  for (int i = 1; i < rods; ++i) {
+    const double factor = s.off[at(i)] / s.diagonal[at(i - 1)];
+    s.diagonal[at(i)] -= factor * s.off[at(i)];
+    s.rhs[at(i)] -= factor * s.rhs[at(i - 1)];
+  }
+  for (int i = rods - 1; i >= 0; --i) {
+    if (i + 1 < rods) s.rhs[at(i)] -= s.off[at(i + 1)] * s.rhs[at(i + 1)];
+    s.rhs[at(i)] /= s.diagonal[at(i)];
+  }
+  for (int i = 0; i < rods; ++i) {
+    if (!held[at(i)]) x[at(i)] -= s.rhs[at(i)] * s.tangent[at(i)];
+    if (!held[at(i + 1)]) x[at(i + 1)] += s.rhs[at(i)] * s.tangent[at(i)];
+  }
+  return largest;
+}
+
+}  // namespace
+
+bool retract(const ChainShape& base, const std::vector<double>& direction, double alpha, const std::vector<char>& held,
+             RetractScratch& scratch, ChainShape& out) {
+  const int rods = base.rods();
+  scratch.resize(rods);
+  out.resize(rods);
+  const auto step = [&](int joint) {
+    return Eigen::Vector3d(alpha * Eigen::Map<const Eigen::Vector3d>(direction.data() + 4 * joint));
+  };
+  for (int j = 0; j <= rods; ++j) {
+    out.joints_mm[at(j)] = base.joints_mm[at(j)] + (4 * j + 2 < static_cast<int>(direction.size()) ? step(j) : Eigen::Vector3d::Zero());
+  }
+  for (int i = 0; i < rods; ++i) {
+    const Eigen::Vector3d t = base.joints_mm[at(i)] - base.joints_mm[at(i + 1)];
+    const double length = t.norm();
+    const Eigen::Vector3d moved = out.joints_mm[at(i)] - out.joints_mm[at(i + 1)];
+    scratch.target[at(i)] = length + base.frames[at(i)].col(2).dot(moved - t);
+    if (!(scratch.target[at(i)] > 0.5 * length)) return false;
+  }
+  constexpr int kMaxSweeps = 8;
+  bool restored = false;
+  for (int sweep = 0; sweep < kMaxSweeps && !restored; ++sweep) {
+    const double violation = project_lengths(held, scratch, out.joints_mm);
+    if (!std::isfinite(violation)) return false;
+    // Newton converges quadratically: below the square root of the tolerance this sweep was the last needed.
+    restored = violation < 1e-6;
+  }
+  for (int i = 0; i < rods; ++i) {
+    const Frame& old = base.frames[at(i)];
+    const Eigen::Vector3d e = (out.joints_mm[at(i)] - out.joints_mm[at(i + 1)]).normalized();
+    if (!(e.dot(old.col(2)) > -0.5)) return false;
+    const double spin = alpha * direction[at(4 * i + 3)];
+    Eigen::Vector3d m1 = math::parallel_transport(old.col(0), old.col(2), e);
+    m1 = math::normal_part(math::spin_about(m1, e, spin), e);
+    out.frames[at(i)].col(0) = m1;
+    out.frames[at(i)].col(1) = e.cross(m1);
+    out.frames[at(i)].col(2) = e;
+    out.spin_rad[at(i)] = base.spin_rad[at(i)] + spin;
+  }
+  for (int j = 1; j < rods; ++j) {
+    out.twist_rad[at(j)] = twist_between(out.frames[at(j)], out.frames[at(j - 1)],
+                                         base.twist_rad[at(j)] + out.spin_rad[at(j - 1)] - base.spin_rad[at(j - 1)] -
+                                             (out.spin_rad[at(j)] - base.spin_rad[at(j)]));
+  }
+  return restored;
+}
+
+}  // namespace endowire::rod

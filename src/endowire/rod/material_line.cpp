@@ -1,0 +1,116 @@
+#include "endowire/rod/material_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace endowire::rod {
+
+namespace {
+
+/// Value of a taper at the fraction 0 … 1 of its section.
+double at(const Taper& taper, double fraction) {
+  return taper.at_tip_side + (taper.at_hand_side - taper.at_tip_side) * fraction;
+}
+
+/// ∫ ds / (a + b s) over a stretch with end values `first` and `last`.
+double integrated_compliance(double length_mm, double first, double last) {
+  const double ratio = last / first - 1.0;
+  if (std::abs(ratio) < 1e-6) return length_mm / (0.5 * (first + last));
+  return length_mm * std::log1p(ratio) / (last - first);
+}
+
+}  // namespace
+
+MaterialLine::MaterialLine(Instrument instrument) : instrument_(std::move(instrument)) {
+  instrument_.validate(instrument_.model.empty() ? "instrument" : instrument_.model);
+  for (const Section& section : instrument_.sections) {
+    start_mm_.push_back(length_mm_);
+    length_mm_ += section.length_mm;
+  }
+}
+
+std::size_t MaterialLine::section_at(double arc_mm) const {
+  const auto after = std::upper_bound(start_mm_.begin() + 1, start_mm_.end(), arc_mm);
+  return static_cast<std::size_t>(after - start_mm_.begin()) - 1;
+}
+
+/// Sums integrand(section, length, first fraction, last fraction) over the sections between two arcs.
+template <typename Integrand>
+double MaterialLine::over_sections(double from_mm, double to_mm, Integrand integrand) const {
+  double sum = 0.0;
+  for (std::size_t k = section_at(from_mm); k < start_mm_.size(); ++k) {
+    const Section& section = instrument_.sections[k];
+    const bool last = k + 1 == start_mm_.size();
+    const double begin = std::max(from_mm, start_mm_[k]);
+    const double end = last ? to_mm : std::min(to_mm, start_mm_[k] + section.length_mm);
+    if (end <= begin) break;
+    const auto fraction = [&](double arc) { return std::clamp((arc - start_mm_[k]) / section.length_mm, 0.0, 1.0); };
+    sum += integrand(section, end - begin, fraction(begin), fraction(end));
+  }
+  return sum;
+}
+
+double MaterialLine::flexural_rigidity_n_mm2(double from_mm, double to_mm) const {
+  return (to_mm - from_mm) / over_sections(from_mm, to_mm, [](const Section& s, double length, double a, double b) {
+           return integrated_compliance(length, at(s.flexural_rigidity_n_mm2, a), at(s.flexural_rigidity_n_mm2, b));
+         });
+}
+
+double MaterialLine::torsional_rigidity_n_mm2(double from_mm, double to_mm) const {
+  return (to_mm - from_mm) / over_sections(from_mm, to_mm, [](const Section& s, double length, double a, double b) {
+           return integrated_compliance(length, at(s.torsional_rigidity_n_mm2, a), at(s.torsional_rigidity_n_mm2, b));
+         });
+}
+
+double MaterialLine::axial_rigidity_n(double from_mm, double to_mm) const {
+  return (to_mm - from_mm) / over_sections(from_mm, to_mm, [](const Section& s, double length, double a, double b) {
+           return integrated_compliance(length, at(s.axial_rigidity_n, a), at(s.axial_rigidity_n, b));
+         });
+}
+
+Eigen::Vector2d MaterialLine::rest_bend_rad(double from_mm, double to_mm) const {
+  const auto along = [&](auto direction) {
+    return over_sections(from_mm, to_mm, [&](const Section& s, double length, double, double) {
+      return s.rest_curvature_per_mm * direction(s.rest_plane_rad) * length;
+    });
+  };
+  return {along([](double a) { return std::cos(a); }), along([](double a) { return std::sin(a); })};
+}
+
+double MaterialLine::mass_g(double from_mm, double to_mm) const {
+  return over_sections(from_mm, to_mm, [](const Section& s, double length, double, double) {
+    return s.linear_density_g_per_mm * length;
+  });
+}
+
+double MaterialLine::volume_mm3(double from_mm, double to_mm) const {
+  // A truncated cone: π L (a² + a b + b²)/3.
+  return over_sections(from_mm, to_mm, [](const Section& s, double length, double a, double b) {
+    const double first = at(s.radius_mm, a);
+    const double last = at(s.radius_mm, b);
+    return std::numbers::pi * length * (first * first + first * last + last * last) / 3.0;
+  });
+}
+
+double MaterialLine::kink_per_mm(double from_mm, double to_mm) const {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = section_at(from_mm); k < start_mm_.size() && start_mm_[k] < to_mm; ++k) {
+    smallest = std::min(smallest, instrument_.sections[k].kink_curvature_per_mm);
+  }
+  return smallest;
+}
+
+double MaterialLine::radius_mm(double arc_mm) const {
+  const std::size_t k = section_at(arc_mm);
+  const Section& section = instrument_.sections[k];
+  return at(section.radius_mm, std::clamp((arc_mm - start_mm_[k]) / section.length_mm, 0.0, 1.0));
+}
+
+double MaterialLine::friction(double arc_mm) const { return instrument_.sections[section_at(arc_mm)].friction; }
+
+double MaterialLine::rest_curvature_per_mm(double arc_mm) const {
+  return instrument_.sections[section_at(arc_mm)].rest_curvature_per_mm;
+}
+
+}  // namespace endowire::rod
