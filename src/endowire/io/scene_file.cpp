@@ -1,0 +1,267 @@
+#include "endowire/io/scene_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "endowire/base/error.hpp"
+#include "endowire/io/file.hpp"
+#include "endowire/io/instrument_file.hpp"
+#include "endowire/io/toml_table.hpp"
+
+namespace endowire::io {
+
+namespace fs = std::filesystem;
+using base::InputError;
+
+namespace {
+
+constexpr std::uintmax_t max_scene_bytes = 16 << 20;  // a hand-written file, with room for long scripts
+constexpr double max_steps = 1e6;      // three hours at 100 Hz; a slip of a unit gives far more
+constexpr double max_motion_mm = 1e4;  // three times the longest wire made
+constexpr double max_motion_deg = 1e6;
+
+const char* const known_generators = "\"tube_tree\"";
+
+VesselSource read_vessel(const TomlTable& root, const fs::path& folder) {
+  const std::optional<TomlTable> table = root.table("vessel", {"file", "generate", "unit"});
+  if (!table) root.refuse_missing("vessel", "a table with file or generate");
+  VesselSource vessel;
+  const std::string unit = table->string_or("unit", "mm", "\"mm\", \"cm\" or \"m\"");
+  vessel.unit = vessel::parse_length_unit(unit, table->file() + ": " + table->path_of("unit"));
+  if (table->has("file") == table->has("generate"))
+    root.refuse("vessel",
+                table->has("file") ? "given both file and generate" : "given neither file nor generate",
+                "given one of the two");
+  if (table->has("generate")) {
+    vessel.generate = table->string("generate", known_generators);
+    if (vessel.generate != "tube_tree")
+      table->refuse("generate", '"' + vessel.generate + '"', known_generators);
+    if (unit != "mm") table->refuse("unit", '"' + unit + '"', "\"mm\" for a generated vessel");
+    return vessel;
+  }
+  const std::string text = table->string("file", "the path of a mesh");
+  vessel.file = (folder / text).lexically_normal();
+  std::error_code error;
+  if (!fs::exists(vessel.file, error))
+    table->refuse("file", '"' + text + '"',
+                  fmt::format("an existing file ({} is none)", vessel.file.string()));
+  return vessel;
+}
+
+void read_access(const TomlTable& root, SceneFile& scene) {
+  const std::optional<TomlTable> table = root.table("access", {"position_mm", "direction", "opening"});
+  if (!table) root.refuse_missing("access", "a table with position_mm and direction, or opening");
+  if (table->has("opening")) {
+    if (table->has("position_mm") || table->has("direction"))
+      root.refuse("access", "given both an opening and a position", "given one of the two");
+    scene.opening = static_cast<int>(table->integer("opening", 1, 10'000));
+    return;
+  }
+  scene.access.position_mm = table->vector("position_mm");
+  if (scene.access.position_mm.cwiseAbs().maxCoeff() > 1e5)
+    table->refuse("position_mm", fmt::format("{} from the origin", scene.access.position_mm.norm()),
+                  "within 100000 mm of it");
+  const Eigen::Vector3d direction = table->vector("direction");
+  // Scaled first: the square of a tiny or huge component must neither vanish nor overflow.
+  const double largest = direction.cwiseAbs().maxCoeff();
+  if (!(largest > 0.0)) table->refuse("direction", "[0, 0, 0]", "a vector of some length, into the vessel");
+  scene.access.direction = (direction / largest).normalized();
+}
+
+rod::Instrument read_instrument(const TomlTable& root, const fs::path& folder,
+                                const std::vector<fs::path>& instrument_folders) {
+  const std::vector<TomlTable> tables =
+      root.tables("instrument", {"model", "grip_force_n", "grip_torque_n_mm", "friction"});
+  if (tables.empty()) root.refuse_missing("instrument", "one [[instrument]]");
+  if (tables.size() > 1)
+    root.refuse("instrument", fmt::format("a list of {}", tables.size()),
+                "one: this version simulates one instrument");
+  const TomlTable& table = tables.front();
+  const std::string model = table.string("model", "the name of an instrument or the path of a .toml file");
+  fs::path path;
+  if (fs::path(model).extension() == ".toml") {
+    path = (folder / model).lexically_normal();
+    std::error_code error;
+    if (!fs::is_regular_file(path, error))
+      table.refuse("model", '"' + model + '"', fmt::format("an existing file ({} is none)", path.string()));
+  } else {
+    // A name, never a way out of the folders.
+    if (model.find_first_of("/\\") == std::string::npos) path = find_instrument(model, instrument_folders);
+    if (path.empty()) {
+      std::string known;
+      for (const std::string& name : list_instruments(instrument_folders))
+        known += (known.empty() ? "" : ", ") + name;
+      table.refuse("model", '"' + model + '"',
+                   known.empty() ? "the path of a .toml file (no instrument library was found)"
+                                 : "one of " + known + ", or the path of a .toml file");
+    }
+  }
+  rod::Instrument instrument = read_instrument_file(path).instrument;
+  instrument.grip_force_n = table.number_or("grip_force_n", instrument.grip_force_n, above(0.0));
+  instrument.grip_torque_n_mm = table.number_or("grip_torque_n_mm", instrument.grip_torque_n_mm, above(0.0));
+  if (table.has("friction")) {
+    const double friction = table.number("friction", between(0.0, 2.0));
+    for (rod::Section& section : instrument.sections) section.friction = friction;
+  }
+  return instrument;
+}
+
+void read_wall(const TomlTable& root, sim::SimulationSpec& spec) {
+  const std::optional<TomlTable> table = root.table(
+      "wall",
+      {"modulus_mpa", "poisson_ratio", "thickness_over_radius", "max_deflection_mm", "perforation_force_n"});
+  if (!table) return;
+  sim::WallSpec& wall = spec.wall;
+  wall.modulus_mpa = table->number_or("modulus_mpa", wall.modulus_mpa, between(0.1, 1000.0));
+  wall.poisson_ratio = table->number_or("poisson_ratio", wall.poisson_ratio, between(0.0, 0.49));
+  wall.thickness_over_radius =
+      table->number_or("thickness_over_radius", wall.thickness_over_radius, between(0.01, 1.0));
+  wall.max_deflection_mm = table->number_or("max_deflection_mm", wall.max_deflection_mm, between(0.01, 0.18));
+  spec.perforation_force_n = table->number_or("perforation_force_n", spec.perforation_force_n, above(0.0));
+}
+
+void read_solver(const TomlTable& root, sim::SolverSpec& solver) {
+  const std::optional<TomlTable> table =
+      root.table("solver", {"rod_length_mm", "correction_tolerance_mm", "correction_tolerance_deg",
+                            "force_tolerance", "proximal_scale", "stick_stiffness_ratio",
+                            "grip_stiffness_n_per_mm", "max_iterations", "max_splits"});
+  if (!table) return;
+  const auto positive = [](double high) {
+    Range range = above(0.0);
+    range.high = high;
+    return range;
+  };
+  const auto read = [&](std::string_view key, double& value, const Range& range) {
+    value = table->number_or(key, value, range);
+  };
+  read("rod_length_mm", solver.rod_length_mm, between(0.2, 20.0));
+  read("correction_tolerance_mm", solver.correction_tolerance_mm, positive(0.1));
+  read("correction_tolerance_deg", solver.correction_tolerance_deg, positive(1.0));
+  read("force_tolerance", solver.force_tolerance, positive(0.01));
+  read("proximal_scale", solver.proximal_scale, positive(1e6));
+  read("stick_stiffness_ratio", solver.stick_stiffness_ratio, positive(1e3));
+  read("grip_stiffness_n_per_mm", solver.grip_stiffness_n_per_mm, positive(1e6));
+  solver.max_iterations =
+      static_cast<int>(table->integer_or("max_iterations", solver.max_iterations, 1, 10'000));
+  solver.max_splits = static_cast<int>(table->integer_or("max_splits", solver.max_splits, 0, 20));
+}
+
+void read_simulation(const TomlTable& root, SceneFile& scene) {
+  sim::SimulationSpec& spec = scene.simulation;
+  if (const auto table = root.table("simulation", {"max_advance_mm", "max_torque_deg", "step_s"})) {
+    spec.max_advance_mm = table->number_or("max_advance_mm", spec.max_advance_mm, between(0.001, 10.0));
+    spec.max_torque_deg = table->number_or("max_torque_deg", spec.max_torque_deg, between(0.01, 90.0));
+    if (table->has("step_s")) scene.step_s = table->number("step_s", between(1e-4, 3600.0));
+  }
+  if (const auto table = root.table("environment", {"gravity_m_per_s2", "blood_density_g_per_mm3"})) {
+    spec.gravity_m_per_s2 = table->vector_or("gravity_m_per_s2", spec.gravity_m_per_s2);
+    if (spec.gravity_m_per_s2.norm() > 1000.0)
+      table->refuse("gravity_m_per_s2", fmt::format("{} long", spec.gravity_m_per_s2.norm()), "<= 1000 long");
+    spec.blood_density_g_per_mm3 =
+        table->number_or("blood_density_g_per_mm3", spec.blood_density_g_per_mm3, between(0.0, 2e-3));
+  }
+  read_wall(root, spec);
+  read_solver(root, spec.solver);
+}
+
+double steps_of(const sim::Motion& motion, const SceneFile& scene) {
+  if (scene.step_s) return std::max(1.0, std::round(motion.duration_s / *scene.step_s));
+  double steps = 1.0;
+  for (const sim::HandMotion& hand : motion.hands) {
+    // The small part keeps 450 mm in steps of 1 mm at 450 steps, whatever the rounding of the quotient.
+    steps = std::max(steps, std::ceil(std::abs(hand.advance_mm) / scene.simulation.max_advance_mm - 1e-9));
+    steps = std::max(steps, std::ceil(std::abs(hand.torque_deg) / scene.simulation.max_torque_deg - 1e-9));
+  }
+  return steps;
+}
+
+void read_motions(const TomlTable& root, SceneFile& scene) {
+  const std::vector<TomlTable> tables = root.tables("motion", {"duration_s", "hands"});
+  if (tables.empty()) root.refuse_missing("motion", "at least one [[motion]]");
+  const double length_mm = [&] {
+    double sum = 0.0;
+    for (const rod::Section& section : scene.instrument.sections) sum += section.length_mm;
+    return sum;
+  }();
+  double advanced_mm = 0.0;
+  double steps = 0.0;
+  for (const TomlTable& table : tables) {
+    sim::Motion motion;
+    Range duration = above(0.0);
+    duration.high = 1e6;
+    motion.duration_s = table.number("duration_s", duration);
+    const std::vector<TomlTable> hands = table.tables("hands", {"instrument", "advance_mm", "torque_deg"});
+    if (hands.size() > 1)
+      table.refuse("hands", fmt::format("a list of {}", hands.size()),
+                   "at most one: there is one instrument");
+    for (const TomlTable& hand_table : hands) {
+      sim::HandMotion hand;
+      hand.instrument = static_cast<int>(hand_table.integer_or("instrument", 1, 1, 1));
+      hand.advance_mm = hand_table.number_or("advance_mm", 0.0, between(-max_motion_mm, max_motion_mm));
+      hand.torque_deg = hand_table.number_or("torque_deg", 0.0, between(-max_motion_deg, max_motion_deg));
+      if (advanced_mm + hand.advance_mm > length_mm)
+        hand_table.refuse(
+            "advance_mm", fmt::format("{}", hand.advance_mm),
+            fmt::format("<= {}, what is left of the {} mm of the wire", length_mm - advanced_mm, length_mm));
+      advanced_mm += hand.advance_mm;
+      motion.hands.push_back(hand);
+    }
+    const double motion_steps = steps_of(motion, scene);
+    steps += motion_steps;
+    if (steps > max_steps)
+      table.refuse("duration_s",
+                   fmt::format("{}, which brings the script to {} steps", motion.duration_s, steps),
+                   fmt::format("short enough for {} steps in all", max_steps));
+    scene.motions.push_back(std::move(motion));
+  }
+}
+
+}  // namespace
+
+SceneFile parse_scene(const std::string& text, const std::string& name,
+                      const std::vector<fs::path>& instrument_folders) {
+  const toml::table toml = parse_toml(text, name);
+  const TomlTable root(toml, name, "",
+                       {"schema", "title", "vessel", "access", "environment", "wall", "solver", "instrument",
+                        "simulation", "motion"});
+  static_cast<void>(root.integer("schema", 1, 1));
+  static_cast<void>(root.string_or("title", "", "a text"));
+  const fs::path folder = fs::path(name).parent_path();
+  SceneFile scene;
+  scene.name = name;
+  scene.text = text;
+  read_access(root, scene);
+  read_simulation(root, scene);
+  scene.vessel = read_vessel(root, folder);
+  scene.instrument = read_instrument(root, folder, instrument_folders);
+  read_motions(root, scene);
+  return scene;
+}
+
+SceneFile read_scene_file(const fs::path& path, const std::vector<fs::path>& instrument_folders) {
+  return parse_scene(read_file(path, max_scene_bytes), one_line(path.string()), instrument_folders);
+}
+
+std::vector<TimedCommand> commands_of(const SceneFile& scene) {
+  std::vector<TimedCommand> commands;
+  double start_s = 0.0;
+  for (const sim::Motion& motion : scene.motions) {
+    const double count = steps_of(motion, scene);
+    double advance_mm = 0.0;
+    double torque_deg = 0.0;
+    for (const sim::HandMotion& hand : motion.hands) {
+      advance_mm += hand.advance_mm;
+      torque_deg += hand.torque_deg;
+    }
+    const sim::Command command{advance_mm / count, torque_deg / count * std::numbers::pi / 180.0};
+    for (double i = 1.0; i <= count; i += 1.0)
+      commands.push_back({start_s + motion.duration_s * (i / count), command});
+    start_s += motion.duration_s;
+  }
+  return commands;
+}
+
+}  // namespace endowire::io

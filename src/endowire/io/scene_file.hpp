@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "endowire/rod/instrument.hpp"
+#include "endowire/sim/scene.hpp"
+#include "endowire/vessel/stl.hpp"
+
+namespace endowire::io {
+
+/// Where the vessel comes from: a file, or an anatomy built in code.
+struct VesselSource {
+  std::filesystem::path file;  ///< as it can be opened from here; empty when generated
+  std::string generate;        ///< name of the generator; empty when read from a file
+  vessel::LengthUnit unit = vessel::LengthUnit::millimetre;  ///< unit of the file
+};
+
+/// A procedure as written down in a scene file; units as in sim/scene.hpp.
+struct SceneFile {
+  std::string name;  ///< the path as given: what messages begin with
+  std::string text;  ///< the file, as read
+  VesselSource vessel;
+  std::optional<int> opening;  ///< access through an opening, counted from 1; else `access` holds
+  sim::Access access;
+  rod::Instrument instrument;
+  sim::SimulationSpec simulation;
+  std::optional<double> step_s;  ///< a fixed rate instead of the longest step
+  std::vector<sim::Motion> motions;
+};
+
+/// Reads a scene. Relative vessel and instrument paths are relative to the scene's folder; an instrument is a
+/// model name, searched for in `instrument_folders`, or a path that ends in `.toml`.
+/// @throws base::InputError `scene.toml: motion[2].duration_s is -1; must be > 0`, for every unknown key,
+/// wrong
+///         type, value outside its range and missing file; indices count from 0, as in the file's lists.
+[[nodiscard]] SceneFile read_scene_file(const std::filesystem::path& path,
+                                        const std::vector<std::filesystem::path>& instrument_folders);
+
+/// Same, from text; `name` stands for the file in messages and its folder for relative paths.
+[[nodiscard]] SceneFile parse_scene(const std::string& text, const std::string& name,
+                                    const std::vector<std::filesystem::path>& instrument_folders);
+
+/// One step of a scripted procedure.
+struct TimedCommand {
+  double time_s = 0.0;  ///< when the step is done, from the start of the procedure
+  sim::Command command;
+};
+
+/// The motions as equal steps: each motion takes as many as its larger limit asks for
+/// (n = ceil(max(|advance| / max_advance, |torque| / max_torque)), at least 1), or duration / step_s.
+[[nodiscard]] std::vector<TimedCommand> commands_of(const SceneFile& scene);
+
+}  // namespace endowire::io
