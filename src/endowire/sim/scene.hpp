@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "endowire/contact/wall.hpp"
+
 namespace endowire::sim {
 
 /// Where the sheath ends in the vessel. The sheath is a straight rigid tube behind that point.
@@ -12,13 +14,7 @@ struct Access {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< into the vessel; normalised on use
 };
 
-/// The vessel wall as an elastic layer; see contact/wall.hpp for the formulas and sources.
-struct WallSpec {
-  double modulus_mpa = 1.0;            ///< incremental modulus, 0.1 … 1000
-  double poisson_ratio = 0.45;         ///< 0 … 0.49
-  double thickness_over_radius = 0.15; ///< wall thickness / lumen radius, 0.01 … 1
-  double max_deflection_mm = 0.15;     ///< hard cap, 0.01 … 0.18; min with half the wall and a third of the tissue
-};
+using contact::WallSpec;
 
 /// Numerical parameters; none of them shapes the result (tests change each tenfold).
 struct SolverSpec {

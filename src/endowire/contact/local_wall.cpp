@@ -1,0 +1,35 @@
+#include "endowire/contact/local_wall.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace endowire::contact {
+
+double local_height_mm(const LocalWall& wall, const Eigen::Vector3d& u) {
+  const double k = wall.first_curvature_per_mm;
+  const double a = wall.height_mm + wall.normal.dot(u);
+  const double b = wall.first.dot(u);
+  const double c = wall.second.dot(u);
+  const double s = std::hypot(1.0 - k * a, k * b);
+  return (2.0 * a - k * (a * a + b * b)) / (1.0 + s) - 0.5 * wall.second_curvature_per_mm * c * c;
+}
+
+LocalHeight local_height_derivatives(const LocalWall& wall, const Eigen::Vector3d& u) {
+  const double k = wall.first_curvature_per_mm;
+  const double a = wall.height_mm + wall.normal.dot(u);
+  const double b = wall.first.dot(u);
+  const double c = wall.second.dot(u);
+  const double p = 1.0 - k * a;
+  // At the centre of curvature the distance has no gradient; no wire that touches the wall is there.
+  const double s = std::max(std::hypot(p, k * b), 1e-9);
+  LocalHeight h;
+  h.value_mm = (2.0 * a - k * (a * a + b * b)) / (1.0 + s) - 0.5 * wall.second_curvature_per_mm * c * c;
+  h.gradient = (p / s) * wall.normal - (k * b / s) * wall.first - wall.second_curvature_per_mm * c * wall.second;
+  const double s3 = s * s * s;
+  const Eigen::Vector3d turning = k * b * wall.normal + p * wall.first;  // tangent of the circle, times s
+  h.hessian = -(k / s3) * turning * turning.transpose() -
+              wall.second_curvature_per_mm * wall.second * wall.second.transpose();
+  return h;
+}
+
+}  // namespace endowire::contact
