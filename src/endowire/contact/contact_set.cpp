@@ -1,0 +1,255 @@
+#include "endowire/contact/contact_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "endowire/contact/detect.hpp"
+#include "endowire/math/transport.hpp"
+
+namespace endowire::contact {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Below this total normal force nothing rubs: the weight of a centimetre of wire.
+constexpr double kRubbingFloor_n = 1e-4;
+constexpr int kMaxSamplesPerRod = 16;
+constexpr double kMinShare_mm = 0.25;
+
+/// Intervals of a rod between samples: a power of two, so that samples persist when the lumen narrows.
+int intervals(double rod_length_mm, double lumen_radius_mm, const ContactSpec& spec) {
+  const double spacing = std::clamp(0.5 * lumen_radius_mm, kMinShare_mm, spec.max_share_mm);
+  int count = 1;
+  while (count < kMaxSamplesPerRod && rod_length_mm > spacing * count * (1.0 + 1e-9)) count *= 2;
+  return count;
+}
+
+/// Linear interpolation in the memory, for increasing arcs; `k` is where the last look-up ended.
+void recall(const FrictionMemory& memory, std::size_t& k, Sample& sample) {
+  const std::size_t n = memory.arc_mm.size();
+  sample.anchor_mm.setZero();
+  sample.lagged_normal_n = 0.0;
+  if (n == 0 || sample.arc_mm > memory.arc_mm[n - 1]) return;
+  while (k + 1 < n && memory.arc_mm[k + 1] <= sample.arc_mm) ++k;
+  if (sample.arc_mm <= memory.arc_mm[k] || k + 1 == n) {
+    sample.anchor_mm = memory.anchor_mm[k];
+    sample.lagged_normal_n = memory.normal_n_per_mm[k] * sample.share_mm;
+    return;
+  }
+  const double w = (sample.arc_mm - memory.arc_mm[k]) / (memory.arc_mm[k + 1] - memory.arc_mm[k]);
+  sample.anchor_mm = (1.0 - w) * memory.anchor_mm[k] + w * memory.anchor_mm[k + 1];
+  sample.lagged_normal_n =
+      ((1.0 - w) * memory.normal_n_per_mm[k] + w * memory.normal_n_per_mm[k + 1]) * sample.share_mm;
+}
+
+Eigen::Vector3d tangent_at(const rod::ChainShape& shape, const Sample& sample) {
+  const Eigen::Vector3d own = shape.frames[at(sample.rod)].col(2);
+  if (sample.fraction > 0.0 || sample.rod == 0) return own;
+  return (own + shape.frames[at(sample.rod - 1)].col(2)).normalized();
+}
+
+Eigen::Vector2d slip_of(const Sample& s, const rod::ChainShape& shape) {
+  const Eigen::Vector3d moved = s.position_mm(shape) - s.start_mm;
+  const double turned = shape.spin_rad[at(s.rod)] - s.start_spin_rad;
+  return s.anchor_mm + Eigen::Vector2d(s.axial.dot(moved), s.around.dot(moved) + s.radius_mm * turned);
+}
+
+FrictionLaw friction_of(const Sample& s) { return {s.stick_stiffness_n_per_mm, s.friction * s.lagged_normal_n}; }
+
+}  // namespace
+
+void FrictionMemory::clear() {
+  arc_mm.clear();
+  anchor_mm.clear();
+  normal_n_per_mm.clear();
+}
+
+void FrictionMemory::reserve(std::size_t samples) {
+  arc_mm.reserve(samples);
+  anchor_mm.reserve(samples);
+  normal_n_per_mm.reserve(samples);
+}
+
+void ContactSet::place(const rod::MaterialLine& line, const rod::ChainMaterial& material, const rod::ChainShape& shape,
+                       int rods_in_lumen, const vessel::Field& field, const ContactSpec& spec,
+                       const FrictionMemory& memory) {
+  samples_.clear();
+  double before_mm = 0.0;  // half an interval of the rod before
+  for (int i = 0; i < rods_in_lumen; ++i) {
+    const double length = material.length_mm[at(i)];
+    const Eigen::Vector3d middle = 0.5 * (shape.joints_mm[at(i)] + shape.joints_mm[at(i + 1)]);
+    const int count = intervals(length, field.lumen_radius_mm(middle), spec);
+    for (int k = 0; k < count; ++k) {
+      Sample s;
+      s.rod = i;
+      s.fraction = static_cast<double>(k) / count;
+      s.arc_mm = material.arc_mm[at(i)] + s.fraction * length;
+      s.share_mm = k > 0 ? length / count : before_mm + 0.5 * length / count;
+      s.radius_mm = line.radius_mm(s.arc_mm);
+      s.friction = line.friction(s.arc_mm);
+      s.start_mm = s.position_mm(shape);
+      s.start_spin_rad = shape.spin_rad[at(i)];
+      samples_.push_back(s);
+    }
+    before_mm = 0.5 * length / count;
+  }
+  std::size_t k = 0;
+  for (Sample& s : samples_) {
+    recall(memory, k, s);
+    s.normal_n = s.lagged_normal_n;
+    s.detected_at_mm = s.start_mm;
+  }
+}
+
+void ContactSet::detect(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec) {
+  for (Sample& s : samples_) {
+    s.detected_at_mm = reachable_point_mm(field, s.detected_at_mm, s.position_mm(shape));
+    const Eigen::Vector3d tangent = tangent_at(shape, s);
+    find_local_walls(field, spec, tangent, s);
+    if (s.walls == 0) continue;
+    s.stiffness_n_per_mm = wall_stiffness_n_per_mm2(spec.wall, s.lumen_radius_mm, s.radius_mm) * s.share_mm;
+    if (s.arc_mm == 0.0) s.stiffness_n_per_mm += tip_cap_stiffness_n_per_mm(spec.wall, s.radius_mm);
+    s.cap_mm = wall_cap_mm(spec.wall, s.lumen_radius_mm, field.tissue_to_next_lumen_mm(s.detected_at_mm));
+    s.stick_stiffness_n_per_mm = spec.stick_stiffness_ratio * s.stiffness_n_per_mm;
+    const Eigen::Vector3d& n = s.wall[0].normal;
+    const Eigen::Vector3d along = tangent - n * n.dot(tangent);
+    s.axial = along.norm() > 0.1 ? along.normalized() : math::any_normal(n);
+    s.around = n.cross(s.axial);
+  }
+}
+
+double ContactSet::energy_mj(const rod::ChainShape& shape) {
+  double energy = 0.0;
+  for (Sample& s : samples_) {
+    s.normal_n = 0.0;
+    s.deflection_mm = 0.0;
+    if (s.walls == 0) continue;
+    const Eigen::Vector3d u = s.position_mm(shape) - s.detected_at_mm;
+    for (int k = 0; k < s.walls; ++k) {
+      const double depth = s.radius_mm - local_height_mm(s.wall[at(k)], u);
+      const WallResponse w = wall_response(s.stiffness_n_per_mm, s.cap_mm, depth);
+      energy += w.energy_mj;
+      s.normal_n += w.force_n;
+      s.deflection_mm = std::max(s.deflection_mm, depth);
+    }
+    if (s.friction > 0.0) energy += friction_energy_mj(friction_of(s), slip_of(s, shape));
+  }
+  return energy;
+}
+
+double ContactSet::add_derivatives(const rod::ChainShape& shape, math::BandMatrix& hessian,
+                                   std::vector<double>& gradient) {
+  double energy = 0.0;
+  for (Sample& s : samples_) {
+    s.normal_n = 0.0;
+    s.deflection_mm = 0.0;
+    if (s.walls == 0) continue;
+    // Gradient and Hessian in (position of the sample, spin of its rod).
+    Eigen::Vector4d g = Eigen::Vector4d::Zero();
+    Eigen::Matrix4d h = Eigen::Matrix4d::Zero();
+    const Eigen::Vector3d u = s.position_mm(shape) - s.detected_at_mm;
+    for (int k = 0; k < s.walls; ++k) {
+      const LocalHeight height = local_height_derivatives(s.wall[at(k)], u);
+      const double depth = s.radius_mm - height.value_mm;
+      const WallResponse w = wall_response(s.stiffness_n_per_mm, s.cap_mm, depth);
+      if (w.force_n <= 0.0) continue;
+      energy += w.energy_mj;
+      s.normal_n += w.force_n;
+      s.deflection_mm = std::max(s.deflection_mm, depth);
+      g.head<3>() -= w.force_n * height.gradient;
+      h.topLeftCorner<3, 3>() += w.stiffness_n_per_mm * height.gradient * height.gradient.transpose() -
+                                 w.force_n * height.hessian;
+    }
+    if (s.friction > 0.0 && s.lagged_normal_n > 0.0) {
+      const FrictionResponse f = friction_response(friction_of(s), slip_of(s, shape));
+      Eigen::Matrix<double, 2, 4> slip = Eigen::Matrix<double, 2, 4>::Zero();
+      slip.block<1, 3>(0, 0) = s.axial.transpose();
+      slip.block<1, 3>(1, 0) = s.around.transpose();
+      slip(1, 3) = s.radius_mm;
+      energy += f.energy_mj;
+      g += slip.transpose() * f.force_n;
+      h += slip.transpose() * f.stiffness_n_per_mm * slip;
+    }
+    const int first = 4 * s.rod;
+    const double a = 1.0 - s.fraction;
+    const double b = s.fraction;
+    for (int r = 0; r < 3; ++r) {
+      gradient[at(first + r)] += a * g[r];
+      gradient[at(first + 4 + r)] += b * g[r];
+      for (int c = 0; c <= r; ++c) {
+        hessian.lower(first + r, first + c) += a * a * h(r, c);
+        hessian.lower(first + 4 + r, first + 4 + c) += b * b * h(r, c);
+      }
+      for (int c = 0; c < 3; ++c) hessian.lower(first + 4 + r, first + c) += a * b * h(r, c);
+      hessian.lower(first + 3, first + r) += a * h(3, r);
+      hessian.lower(first + 4 + r, first + 3) += b * h(r, 3);
+    }
+    gradient[at(first + 3)] += g[3];
+    hessian.lower(first + 3, first + 3) += h(3, 3);
+  }
+  return energy;
+}
+
+double ContactSet::lag_error() const {
+  double change = 0.0;
+  double total = kRubbingFloor_n;
+  for (const Sample& s : samples_) {
+    if (s.friction == 0.0) continue;
+    change += std::abs(s.normal_n - s.lagged_normal_n);
+    total += s.normal_n;
+  }
+  return change / total;
+}
+
+void ContactSet::renew_lagged() {
+  for (Sample& s : samples_) s.lagged_normal_n = s.normal_n;
+}
+
+Verification ContactSet::verify(const rod::ChainShape& shape, const vessel::Field& field) const {
+  Verification worst;
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const Sample& s = samples_[i];
+    const Eigen::Vector3d x = s.position_mm(shape);
+    const Eigen::Vector3d u = x - s.detected_at_mm;
+    // A sample without walls that stayed within its clearance cannot touch anything.
+    if (s.walls == 0 && u.norm() < s.clearance_mm) continue;
+    double predicted = HUGE_VAL;
+    for (int k = 0; k < s.walls; ++k) predicted = std::min(predicted, local_height_mm(s.wall[at(k)], u));
+    const double actual = field.at(x).distance_mm;
+    if (std::min(actual, predicted) >= s.radius_mm) continue;
+    const double error = s.walls == 0 ? s.radius_mm - actual : std::abs(actual - predicted);
+    if (error > worst.gap_error_mm) worst = {error, static_cast<int>(i)};
+  }
+  return worst;
+}
+
+void ContactSet::remember(const rod::ChainShape& shape, FrictionMemory& memory) const {
+  memory.clear();
+  for (const Sample& s : samples_) {
+    memory.arc_mm.push_back(s.arc_mm);
+    const bool rubs = s.walls > 0 && s.friction > 0.0 && s.lagged_normal_n > 0.0;
+    memory.anchor_mm.push_back(rubs ? friction_anchor(friction_of(s), slip_of(s, shape)) : Eigen::Vector2d::Zero());
+    memory.normal_n_per_mm.push_back(s.walls > 0 ? s.normal_n / s.share_mm : 0.0);
+  }
+}
+
+Eigen::Vector3d ContactSet::normal_force_n(const rod::ChainShape& shape, std::size_t sample) const {
+  const Sample& s = samples_[sample];
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d u = s.position_mm(shape) - s.detected_at_mm;
+  for (int k = 0; k < s.walls; ++k) {
+    const LocalHeight height = local_height_derivatives(s.wall[at(k)], u);
+    force += wall_response(s.stiffness_n_per_mm, s.cap_mm, s.radius_mm - height.value_mm).force_n * height.gradient;
+  }
+  return force;
+}
+
+Eigen::Vector3d ContactSet::friction_force_n(const rod::ChainShape& shape, std::size_t sample) const {
+  const Sample& s = samples_[sample];
+  if (s.walls == 0 || s.friction == 0.0) return Eigen::Vector3d::Zero();
+  const Eigen::Vector2d f = friction_response(friction_of(s), slip_of(s, shape)).force_n;
+  return -(f[0] * s.axial + f[1] * s.around);
+}
+
+}  // namespace endowire::contact

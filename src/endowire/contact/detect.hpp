@@ -1,0 +1,20 @@
+#pragma once
+
+#include "endowire/contact/contact_set.hpp"
+
+namespace endowire::contact {
+
+/// Where a straight path through the lumen ends: at `to_mm`, or just before the wall that it would pass.
+[[nodiscard]] Eigen::Vector3d reachable_point_mm(const vessel::Field& field, const Eigen::Vector3d& from_mm,
+                                                 const Eigen::Vector3d& to_mm);
+
+/// Finds up to three local walls around sample.detected_at_mm, which must be set and lie in the lumen.
+///
+/// The nearest wall comes with its principal curvatures, from differences of the field's gradient. Then the field is probed
+/// around the sample: where it is nearer than the walls found so far predict (a corner between two facets, the far
+/// side of a narrow lumen, both sides of a carina), another wall is added, as a plane.
+/// @param tangent  of the wire, unit
+void find_local_walls(const vessel::Field& field, const ContactSpec& spec, const Eigen::Vector3d& tangent,
+                      Sample& sample);
+
+}  // namespace endowire::contact
