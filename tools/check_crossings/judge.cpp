@@ -151,7 +151,16 @@ void Judge::judge_point(const Section& section, Side side, const Vector3d& point
   double depth = 0.0;
   if (side == Side::lumen) {
     SegmentHits wall;
-    for (const int t : near_) wall += hits_of(lumen_.wall().triangle(t), section.centre_mm, point);
+    Vector3d facing = point - section.centre_mm;  // of the wall passed first, as its corners turn
+    for (const int t : near_) {
+      const Triangle& triangle = lumen_.wall().triangle(t);
+      const SegmentHits hit = hits_of(triangle, section.centre_mm, point);
+      if (hit.any() && hit.first < wall.first) {
+        const Vector3d normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+        facing = normal.dot(point - section.centre_mm) * (point - section.centre_mm);
+      }
+      wall += hit;
+    }
     if (!wall.any()) return;  // in the lumen, or beyond an opening
     const SegmentHits gate = lumen_.gates().hits(section.centre_mm, point);
     const bool parity_holds = wall.unsure == 0 && !gate.any();
@@ -160,10 +169,7 @@ void Judge::judge_point(const Section& section, Side side, const Vector3d& point
     if (inside && wall.sure == 0) return;  // grazes an edge
     const double behind_wall = (1.0 - wall.first) * section.radius_mm;
     depth = inside ? behind_wall
-                   : lumen_.wall()
-                         .nearest(point, behind_wall * (1.0 + 1e-9) + 1e-12,
-                                  lumen_.outward() * (point - section.centre_mm))
-                         .distance_mm;
+                   : lumen_.wall().nearest(point, behind_wall * (1.0 + 1e-9) + 1e-12, facing).distance_mm;
     if (!std::isfinite(depth)) depth = behind_wall;
   } else {
     if (lumen_.inside(point)) return;

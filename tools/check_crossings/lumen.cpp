@@ -215,22 +215,24 @@ Lumen::Lumen(const std::vector<Triangle>& surface) : triangles_(static_cast<int>
     wall.push_back({mesh.points[static_cast<std::size_t>(c[0])], mesh.points[static_cast<std::size_t>(c[1])],
                     mesh.points[static_cast<std::size_t>(c[2])]});
   }
-  double volume = 0.0;
   std::vector<Cover> covers;
   for (const std::vector<int>& loop : boundary_loops(mesh)) covers.push_back(cover_of(loop, mesh));
   std::vector<Triangle> closed = wall;
   for (const Cover& cover : covers)
     closed.insert(closed.end(), cover.triangles.begin(), cover.triangles.end());
-  for (const Triangle& t : closed)
-    volume += (t[0] - closed[0][0]).dot((t[1] - closed[0][0]).cross(t[2] - closed[0][0]));
-  outward_ = volume >= 0.0 ? 1.0 : -1.0;
-
+  const TriangleTree closed_surface(std::move(closed));
   const TriangleTree open_surface(wall);
   std::vector<Triangle> gates;
   for (Cover& cover : covers) {
     const double area = cover.area_vector.norm();
     if (area > 0.0) {
-      const Vector3d inward = -outward_ * cover.area_vector / area;
+      // The side that more of the surface winds around is the lumen.
+      Vector3d inward = cover.area_vector / area;
+      const Vector3d pace = 0.125 * cover.hole.diameter_mm * inward;
+      if (std::abs(closed_surface.winding(cover.hole.centre_mm + pace)) <
+          std::abs(closed_surface.winding(cover.hole.centre_mm - pace))) {
+        inward = -inward;
+      }
       cover.hole.lumen_radius_mm = lumen_radius_behind(cover, open_surface, inward);
       cover.hole.opening = cover.hole.diameter_mm >= narrowest_opening_mm &&
                            0.5 * cover.hole.diameter_mm >= opening_ratio * cover.hole.lumen_radius_mm;

@@ -34,8 +34,6 @@ class Lumen {
   [[nodiscard]] const TriangleTree& gates() const { return gates_; }
   [[nodiscard]] const std::vector<Hole>& holes() const { return holes_; }
   [[nodiscard]] int triangles() const { return triangles_; }
-  /// +1 when the normals of `wall()` point out of the lumen, −1 when they point into it.
-  [[nodiscard]] double outward() const { return outward_; }
 
   [[nodiscard]] bool inside(const Eigen::Vector3d& point_mm) const;
   /// True when an outside point sees the middle of an opening less than two of its diameters away: the
@@ -47,7 +45,6 @@ class Lumen {
   TriangleTree gates_;  // the covers of openings
   std::vector<Hole> holes_;
   int triangles_ = 0;
-  double outward_ = 1.0;
 };
 
 }  // namespace crossings
