@@ -19,13 +19,15 @@ class Field {
   virtual ~Field() = default;
 
   /// Signed distance to the wall and its gradient at `point_mm`. Defined for every finite point: beyond the
-  /// band around the wall in which it is exact to `error_mm()` it keeps its sign and never jumps inside the band.
+  /// band around the wall in which it is exact to `error_mm()` it keeps its sign and never jumps inside the
+  /// band.
   [[nodiscard]] virtual WallDistance at(const Eigen::Vector3d& point_mm) const = 0;
 
   /// Radius of the lumen around `point_mm`, > 0: sets sample spacing and wall thickness, never the contact.
   [[nodiscard]] virtual double lumen_radius_mm(const Eigen::Vector3d& point_mm) const = 0;
 
-  /// Thickness of tissue between the wall near `point_mm` and another lumen of the same vessel behind it; infinity if none.
+  /// Thickness of tissue between the wall near `point_mm` and another lumen of the same vessel behind it;
+  /// infinity if none.
   [[nodiscard]] virtual double tissue_to_next_lumen_mm(const Eigen::Vector3d& point_mm) const = 0;
 
   /// 0 inside the vessel, k ≥ 1 inside the virtual tube behind opening k (counted from 1).

@@ -1,0 +1,506 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <queue>
+
+#include "endowire/base/contract.hpp"
+#include "endowire/vessel/hash.hpp"
+#include "endowire/vessel/lumen.hpp"
+#include "endowire/vessel/mesh_field.hpp"
+#include "endowire/vessel/random.hpp"
+#include "endowire/vessel/surface.hpp"
+#include "endowire/vessel/winding.hpp"
+
+namespace endowire::vessel {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::uint64_t algorithm_version = 1;   // part of the key: old caches die with a change of results
+constexpr double max_spacing_mm = 3.2;           // in the middle of wide lumens
+constexpr double base_spacing_limit_mm = 1.6;    // near walls; what error_target_mm needs comes on top
+constexpr double base_cells_per_radius = 4.0;    // so that every lumen is seen at all
+constexpr double radius_floor_spacing_mm = 0.1;  // finer only where the error asks for it
+constexpr int test_points = 16;                  // per brick
+constexpr std::size_t max_roots = 2'000'000;     // 8 MB of references; a longer vessel gets larger root cells
+constexpr std::size_t report_points = 60'000;    // of the final error measurement
+constexpr std::size_t scout_points = 100'000;    // random points that look for cells the test points missed
+constexpr std::uint64_t scout_seed = 11;
+constexpr std::uint64_t report_seed = 12;
+
+}  // namespace
+
+/// Builds the octree of a MeshField: cells that need it are sampled, then the worst are split until all meet
+/// the tolerance or memory is spent. Single-threaded; every decision depends on coordinates only.
+class MeshFieldBuilder {
+ public:
+  MeshFieldBuilder(const RepairedMesh& repaired, const FieldParameters& parameters)
+      : parameters_(parameters),
+        closed_(close_surface(repaired, parameters.virtual_tube_mm)),
+        surface_(closed_.mesh),
+        lumen_(measure_lumen(surface_, closed_.wall_triangles)) {}
+
+  MeshField build(std::uint64_t key) {
+    field_.key_ = key;
+    field_.band_mm_ = parameters_.band_outside_mm;
+    field_.tubes_ = closed_.tubes;
+    max_bricks_ = parameters_.max_bytes /
+                  (MeshField::samples_per_brick * sizeof(std::uint16_t) + sizeof(MeshField::Brick));
+    lay_roots();
+    choose_base_scale();
+    field_.samples_.reserve(max_bricks_ * MeshField::samples_per_brick);
+    const std::size_t roots = field_.roots_.size();
+    for (std::size_t i = 0; i < roots; ++i) prepare(root_cell(i));
+    refine_worst_first();
+    scout();
+    refine_worst_first();
+    compact();
+    fill_facts();
+    return std::move(field_);
+  }
+
+ private:
+  struct Cell {
+    std::array<std::int32_t, 3> at;  ///< lowest corner in finest bricks
+    std::int32_t level;              ///< log₂ of the edge in finest bricks
+    std::size_t slot;                ///< where its reference is: root, or roots + 8 · group + octant
+  };
+  struct Worst {
+    double excess;  ///< error over tolerance
+    std::size_t brick;
+    bool operator<(const Worst& o) const {
+      return excess < o.excess || (excess == o.excess && brick > o.brick);
+    }
+  };
+
+  // --- geometry of cells
+
+  double size_mm(const Cell& cell) const { return finest_mm_ * static_cast<double>(1 << cell.level); }
+  Vector3d origin_mm(const Cell& cell) const {
+    return field_.origin_mm_ + finest_mm_ * Vector3d(cell.at[0], cell.at[1], cell.at[2]);
+  }
+  Cell root_cell(std::size_t i) const {
+    const auto ny = static_cast<std::size_t>(field_.roots_along_[1]);
+    const auto nz = static_cast<std::size_t>(field_.roots_along_[2]);
+    const std::int32_t unit = 1 << field_.levels_;
+    return {{static_cast<std::int32_t>(i / (ny * nz)) * unit, static_cast<std::int32_t>(i / nz % ny) * unit,
+             static_cast<std::int32_t>(i % nz) * unit},
+            field_.levels_,
+            i};
+  }
+  MeshField::Reference& reference(std::size_t slot) {
+    const std::size_t roots = field_.roots_.size();
+    return slot < roots ? field_.roots_[slot] : field_.children_[(slot - roots) / 8][(slot - roots) % 8];
+  }
+
+  void lay_roots() {
+    Eigen::AlignedBox3d box = bounds_mm(closed_.mesh);
+    const Vector3d margin = Vector3d::Constant(2.0 * parameters_.band_outside_mm);
+    box.min() -= margin;
+    box.max() += margin;
+    double root = MeshField::cells * max_spacing_mm;
+    std::array<std::size_t, 3> along{};
+    for (;; root *= 2.0) {
+      for (std::size_t k = 0; k < 3; ++k)
+        along[k] = static_cast<std::size_t>(std::ceil(box.sizes()[static_cast<Eigen::Index>(k)] / root));
+      if (along[0] * along[1] * along[2] <= max_roots) break;
+    }
+    field_.root_mm_ = root;
+    field_.levels_ = 0;
+    for (double h = root / MeshField::cells; 0.5 * h >= parameters_.min_spacing_mm * (1.0 - 1e-9); h *= 0.5)
+      ++field_.levels_;
+    finest_mm_ = root / static_cast<double>(1 << field_.levels_);
+    const Vector3d used = root * Vector3d(static_cast<double>(along[0]), static_cast<double>(along[1]),
+                                          static_cast<double>(along[2]));
+    field_.origin_mm_ = box.center() - 0.5 * used;
+    for (std::size_t k = 0; k < 3; ++k) field_.roots_along_[k] = static_cast<std::int32_t>(along[k]);
+    field_.roots_.assign(along[0] * along[1] * along[2], 0);
+  }
+
+  /// Spacing that the radius of a lumen asks for, before any error is known.
+  double base_spacing_mm(double radius_mm) const {
+    return base_scale_ *
+           std::clamp(radius_mm / base_cells_per_radius, radius_floor_spacing_mm, base_spacing_limit_mm);
+  }
+
+  /// Coarser everywhere when the first cells alone would fill the memory (a huge or hostile vessel).
+  void choose_base_scale() {
+    for (;; base_scale_ *= 2.0) {
+      double bricks = 0.0;
+      for (std::size_t t = 0; t < closed_.mesh.triangles.size(); ++t) {
+        const double edge = MeshField::cells * base_spacing_mm(lumen_.radius_mm[t]);
+        bricks += 0.5 * closed_.mesh.area_normal(t).norm() / (edge * edge) *
+                  (2.0 + (parameters_.near_mm + parameters_.band_outside_mm) / edge);
+      }
+      if (bricks < 0.5 * static_cast<double>(max_bricks_) || base_scale_ > 1e3) return;
+    }
+  }
+
+  // --- the octree
+
+  void prepare(const Cell& cell) {
+    const double size = size_mm(cell);
+    const double reach = 0.5 * std::sqrt(3.0) * size;
+    const Vector3d centre = origin_mm(cell) + Vector3d::Constant(0.5 * size);
+    const ExactSurface::Sample s = surface_.at(centre);
+    if (s.distance_mm < -(parameters_.band_outside_mm + reach)) {
+      add_far(cell, centre, s);
+      return;
+    }
+    const auto t = static_cast<std::size_t>(s.triangle);
+    const bool near = s.distance_mm < reach + parameters_.near_mm;
+    const double spacing = size / MeshField::cells;
+    if (cell.level > 0 && near && spacing > base_spacing_mm(lumen_.radius_mm[t]) * (1.0 + 1e-9)) {
+      split(cell);
+      return;
+    }
+    add_brick(cell);
+  }
+
+  void split(const Cell& cell) {
+    const std::size_t group = field_.children_.size();
+    field_.children_.push_back({});
+    reference(cell.slot) = static_cast<MeshField::Reference>(group);
+    const std::int32_t half = 1 << (cell.level - 1);
+    for (std::size_t o = 0; o < 8; ++o) {
+      Cell child{cell.at, cell.level - 1, field_.roots_.size() + 8 * group + o};
+      for (std::size_t k = 0; k < 3; ++k) child.at[k] += ((o >> k) & 1U) != 0 ? half : 0;
+      prepare(child);
+    }
+  }
+
+  void add_far(const Cell& cell, const Vector3d& centre, const ExactSurface::Sample& s) {
+    const Vector3d g = (s.nearest_mm - centre).stableNormalized();
+    const auto t = static_cast<std::size_t>(s.triangle);
+    reference(cell.slot) =
+        static_cast<MeshField::Reference>(-2 - 2 * static_cast<std::int64_t>(field_.far_.size()));
+    field_.far_.push_back({static_cast<float>(s.distance_mm),
+                           {static_cast<float>(g.x()), static_cast<float>(g.y()), static_cast<float>(g.z())},
+                           static_cast<float>(lumen_.radius_mm[t]),
+                           static_cast<float>(lumen_.tissue_mm[t])});
+  }
+
+  double tolerance_mm(double distance_mm) const {
+    return parameters_.error_target_mm +
+           parameters_.error_slope * std::max(0.0, std::abs(distance_mm) - parameters_.near_mm);
+  }
+
+  /// Samples a brick and, where its test points miss, notes it for splitting.
+  void add_brick(const Cell& cell) {
+    std::size_t index = 0;
+    if (!unused_.empty()) {
+      index = unused_.back();
+      unused_.pop_back();
+    } else {
+      index = field_.bricks_.size();
+      field_.bricks_.push_back({});
+      cells_.push_back({});
+      field_.samples_.resize(field_.samples_.size() + MeshField::samples_per_brick);
+    }
+    cells_[index] = cell;
+    reference(cell.slot) = static_cast<MeshField::Reference>(-1 - 2 * static_cast<std::int64_t>(index));
+    sample(cell);
+    settle_signs(cell);
+    store(index);
+    if (cell.level == 0) return;
+    const double excess = excess_of_tests(index, cell);
+    if (excess > 1.0) worst_.push({excess, index});
+  }
+
+  static std::size_t node(int i, int j, int k) {
+    return static_cast<std::size_t>((i * MeshField::nodes + j) * MeshField::nodes + k);
+  }
+
+  /// Exact distances at the nodes and at random test points; the brick shares one search.
+  void sample(const Cell& cell) {
+    const double spacing = size_mm(cell) / MeshField::cells;
+    const Vector3d origin = origin_mm(cell);
+    SplitMix random((static_cast<std::uint64_t>(cell.at[0]) << 42) ^
+                    (static_cast<std::uint64_t>(cell.at[1]) << 21) ^ static_cast<std::uint64_t>(cell.at[2]) ^
+                    (static_cast<std::uint64_t>(cell.level) << 60));
+    tests_.clear();
+    const double size = size_mm(cell);
+    const Vector3d centre = origin + Vector3d::Constant(0.5 * size);
+    const double reach = 0.5 * std::sqrt(3.0) * size;
+    const double nearest = surface_.bvh().nearest(centre).distance_mm;
+    surface_.bvh().collect(centre, nearest + 2.0 * reach + 1e-9, candidates_);
+    for (int i = 0; i < MeshField::nodes; ++i)
+      for (int j = 0; j < MeshField::nodes; ++j)
+        for (int k = 0; k < MeshField::nodes; ++k) {
+          const ExactSurface::Sample s =
+              surface_.at(origin + spacing * Vector3d(i, j, k), centre, candidates_);
+          distance_[node(i, j, k)] = s.distance_mm;
+          triangle_[node(i, j, k)] = s.triangle;
+        }
+    for (int n = 0; n < test_points; ++n) {
+      const Vector3d p = origin + size * Vector3d(random.uniform(), random.uniform(), random.uniform());
+      tests_.push_back({p, surface_.at(p, centre, candidates_).distance_mm});
+    }
+  }
+
+  /// Where two neighbouring nodes differ in sign though their distances say that no wall is between them, a
+  /// flaw of the mesh misled the pseudonormal; the winding number decides for the whole connected set of
+  /// nodes.
+  void settle_signs(const Cell& cell) {
+    const double spacing_mm = size_mm(cell) / MeshField::cells;
+    bool suspicious = false;
+    const auto joined = [&](std::size_t a, std::size_t b) {
+      return std::abs(distance_[a]) + std::abs(distance_[b]) > spacing_mm * (1.0 + 1e-6);
+    };
+    const auto each_link = [&](const auto& visit) {
+      for (int i = 0; i < MeshField::nodes; ++i)
+        for (int j = 0; j < MeshField::nodes; ++j)
+          for (int k = 0; k < MeshField::nodes; ++k) {
+            if (i > 0) visit(node(i, j, k), node(i - 1, j, k));
+            if (j > 0) visit(node(i, j, k), node(i, j - 1, k));
+            if (k > 0) visit(node(i, j, k), node(i, j, k - 1));
+          }
+    };
+    each_link([&](std::size_t a, std::size_t b) {
+      suspicious = suspicious || ((distance_[a] > 0.0) != (distance_[b] > 0.0) && joined(a, b));
+    });
+    if (!suspicious) return;
+    std::array<std::size_t, MeshField::samples_per_brick> parent{};
+    std::iota(parent.begin(), parent.end(), std::size_t{0});
+    const auto root = [&](std::size_t n) {
+      while (parent[n] != n) n = parent[n] = parent[parent[n]];
+      return n;
+    };
+    each_link([&](std::size_t a, std::size_t b) {
+      if (joined(a, b)) parent[root(a)] = root(b);
+    });
+    std::array<int, MeshField::samples_per_brick> signs{};  // bit 1: an inside node, bit 2: an outside one
+    std::array<std::size_t, MeshField::samples_per_brick> deepest{};
+    for (std::size_t n = 0; n < parent.size(); ++n) {
+      const std::size_t r = root(n);
+      if (signs[r] == 0 || std::abs(distance_[n]) > std::abs(distance_[deepest[r]])) deepest[r] = n;
+      signs[r] |= distance_[n] > 0.0 ? 1 : 2;
+    }
+    for (std::size_t r = 0; r < parent.size(); ++r) {
+      if (signs[r] != 3) continue;
+      const auto n = static_cast<int>(deepest[r]);
+      const Vector3d p = origin_mm(cell) + spacing_mm * Vector3d(n / (MeshField::nodes * MeshField::nodes),
+                                                                 n / MeshField::nodes % MeshField::nodes,
+                                                                 n % MeshField::nodes);
+      const double sign = winding_number(closed_.mesh, p) > 0.5 ? 1.0 : -1.0;
+      for (std::size_t m = 0; m < parent.size(); ++m)
+        if (root(m) == r) distance_[m] = sign * std::abs(distance_[m]);
+    }
+  }
+
+  void store(std::size_t index) {
+    const auto [low, high] = std::minmax_element(distance_.begin(), distance_.end());
+    MeshField::Brick& brick = field_.bricks_[index];
+    brick.low_mm = static_cast<float>(*low);
+    brick.step_mm = static_cast<float>((*high - *low) / 65535.0);
+    const double start = static_cast<double>(brick.low_mm);
+    const double per_step = brick.step_mm > 0.0F ? 1.0 / static_cast<double>(brick.step_mm) : 0.0;
+    std::uint16_t* samples = field_.samples_.data() + index * MeshField::samples_per_brick;
+    double tissue = std::numeric_limits<double>::infinity();
+    double nearest = std::numeric_limits<double>::infinity();
+    for (double d : distance_) nearest = std::min(nearest, std::abs(d));
+    const double reach = std::max(2.0, nearest + 1e-6);  // walls that something in this brick may press on
+    for (std::size_t n = 0; n < MeshField::samples_per_brick; ++n) {
+      samples[n] =
+          static_cast<std::uint16_t>(std::clamp(std::round((distance_[n] - start) * per_step), 0.0, 65535.0));
+      if (std::abs(distance_[n]) <= reach)
+        tissue = std::min(tissue, lumen_.tissue_mm[static_cast<std::size_t>(triangle_[n])]);
+    }
+    brick.tissue_mm = static_cast<float>(tissue);
+    for (unsigned c = 0; c < 8; ++c) {
+      const auto end = [&](unsigned bit) { return (c & bit) != 0 ? MeshField::cells : 0; };
+      const auto t = static_cast<std::size_t>(triangle_[node(end(1), end(2), end(4))]);
+      brick.radius_code[c] = MeshField::encode_radius(lumen_.radius_mm[t]);
+    }
+  }
+
+  double excess_of_tests(std::size_t index, const Cell& cell) {
+    const MeshField::Place place{-1, origin_mm(cell), size_mm(cell)};
+    double excess = 0.0;
+    for (const Test& test : tests_) {
+      if (test.distance_mm < -parameters_.band_outside_mm) continue;
+      const double error =
+          std::abs(field_.interpolate(index, test.point_mm, place).distance_mm - test.distance_mm);
+      excess = std::max(excess, error / tolerance_mm(test.distance_mm));
+    }
+    return excess;
+  }
+
+  void refine_worst_first() {
+    while (!worst_.empty()) {
+      if (field_.bricks_.size() - unused_.size() + 7 > max_bricks_) {
+        out_of_memory_ = true;
+        return;
+      }
+      const std::size_t brick = worst_.top().brick;
+      worst_.pop();
+      split_brick(brick);
+    }
+  }
+
+  void split_brick(std::size_t brick) {
+    const Cell cell = cells_[brick];
+    unused_.push_back(brick);
+    split(cell);
+  }
+
+  // --- measurement
+
+  struct Probe {
+    Vector3d point_mm;
+    double error_mm;
+  };
+
+  /// Random points within near_mm of the vessel's own wall, by area, and how far the field misses there.
+  template <typename Visit>
+  void probe_near_wall(std::size_t count, std::uint64_t seed, Visit visit) {
+    std::vector<double> cumulative(closed_.wall_triangles);
+    double sum = 0.0;
+    for (std::size_t t = 0; t < closed_.wall_triangles; ++t)
+      cumulative[t] = sum += 0.5 * closed_.mesh.area_normal(t).norm();
+    SplitMix random(seed);
+    for (std::size_t n = 0; n < count; ++n) {
+      const auto hit = std::upper_bound(cumulative.begin(), cumulative.end(), random.uniform() * sum);
+      const auto t = static_cast<std::size_t>(std::min(hit, cumulative.end() - 1) - cumulative.begin());
+      double u = random.uniform();
+      double v = random.uniform();
+      if (u + v > 1.0) {
+        u = 1.0 - u;
+        v = 1.0 - v;
+      }
+      const Vector3d on_wall = closed_.mesh.corner(t, 0) +
+                               u * (closed_.mesh.corner(t, 1) - closed_.mesh.corner(t, 0)) +
+                               v * (closed_.mesh.corner(t, 2) - closed_.mesh.corner(t, 0));
+      const double offset = random.uniform(-parameters_.near_mm, parameters_.near_mm);
+      const Vector3d p = on_wall + offset * surface_.normal(t);
+      const double exact = surface_.at(p).distance_mm;
+      visit(Probe{p, std::abs(field_.at(p).distance_mm - exact)});
+    }
+  }
+
+  /// Finds bricks whose own test points were lucky.
+  void scout() {
+    if (out_of_memory_) return;
+    std::vector<std::pair<std::size_t, double>> missed;
+    probe_near_wall(scout_points, scout_seed, [&](const Probe& probe) {
+      const double excess = probe.error_mm / parameters_.error_target_mm;
+      const MeshField::Reference r = field_.find(probe.point_mm).reference;
+      if (excess > 1.0 && !MeshField::is_far(r)) missed.emplace_back(MeshField::index_of(r), excess);
+    });
+    std::sort(missed.begin(), missed.end(), [](const auto& a, const auto& b) {
+      return a.first < b.first || (a.first == b.first && a.second > b.second);
+    });
+    std::size_t last = std::numeric_limits<std::size_t>::max();
+    for (const auto& [brick, excess] : missed) {
+      if (brick != last && cells_[brick].level > 0) worst_.push({excess, brick});
+      last = brick;
+    }
+  }
+
+  /// Fills the gaps that splitting left.
+  void compact() {
+    std::sort(unused_.begin(), unused_.end());
+    while (!unused_.empty()) {
+      const std::size_t last = field_.bricks_.size() - 1;
+      if (unused_.back() == last) {
+        unused_.pop_back();
+      } else {
+        const std::size_t gap = unused_.front();
+        unused_.erase(unused_.begin());
+        field_.bricks_[gap] = field_.bricks_[last];
+        cells_[gap] = cells_[last];
+        const auto from =
+            field_.samples_.begin() + static_cast<std::ptrdiff_t>(last * MeshField::samples_per_brick);
+        std::copy(from, from + static_cast<std::ptrdiff_t>(MeshField::samples_per_brick),
+                  field_.samples_.begin() + static_cast<std::ptrdiff_t>(gap * MeshField::samples_per_brick));
+        reference(cells_[gap].slot) =
+            static_cast<MeshField::Reference>(-1 - 2 * static_cast<std::int64_t>(gap));
+      }
+      field_.bricks_.pop_back();
+      cells_.pop_back();
+      field_.samples_.resize(field_.bricks_.size() * MeshField::samples_per_brick);
+    }
+  }
+
+  void fill_facts() {
+    FieldFacts& facts = field_.facts_;
+    facts.bricks = field_.bricks_.size();
+    facts.bytes = field_.samples_.size() * sizeof(std::uint16_t) +
+                  field_.bricks_.size() * sizeof(MeshField::Brick) +
+                  field_.far_.size() * sizeof(MeshField::FarCell) +
+                  field_.children_.size() * sizeof(field_.children_[0]) +
+                  field_.roots_.size() * sizeof(MeshField::Reference);
+    facts.finest_spacing_mm = std::numeric_limits<double>::infinity();
+    for (const Cell& cell : cells_) {
+      const double spacing = size_mm(cell) / MeshField::cells;
+      facts.finest_spacing_mm = std::min(facts.finest_spacing_mm, spacing);
+      facts.coarsest_spacing_mm = std::max(facts.coarsest_spacing_mm, spacing);
+    }
+    std::vector<double> errors;
+    errors.reserve(report_points);
+    probe_near_wall(report_points, report_seed,
+                    [&](const Probe& probe) { errors.push_back(probe.error_mm); });
+    std::sort(errors.begin(), errors.end());
+    facts.error_points = errors.size();
+    facts.error_p50_mm = errors[errors.size() / 2];
+    facts.error_p99_mm = errors[errors.size() * 99 / 100];
+    facts.error_max_mm = errors.back();
+    facts.refinement_complete = !out_of_memory_ && facts.error_max_mm <= 2.0 * parameters_.error_target_mm;
+
+    std::vector<std::pair<double, double>> diameters;  // and the area of wall that has it
+    double area = 0.0;
+    for (std::size_t t = 0; t < closed_.wall_triangles; ++t) {
+      diameters.emplace_back(2.0 * lumen_.radius_mm[t], 0.5 * closed_.mesh.area_normal(t).norm());
+      area += diameters.back().second;
+    }
+    std::sort(diameters.begin(), diameters.end());
+    constexpr std::array<double, 5> parts{0.05, 0.25, 0.5, 0.75, 0.95};
+    double below = 0.0;
+    std::size_t next = 0;
+    for (const auto& [diameter, weight] : diameters) {
+      below += weight;
+      while (next < parts.size() && below >= parts[next] * area)
+        facts.lumen_diameter_percentiles_mm[next++] = diameter;
+    }
+  }
+
+  struct Test {
+    Vector3d point_mm;
+    double distance_mm;
+  };
+
+  FieldParameters parameters_;
+  ClosedSurface closed_;
+  ExactSurface surface_;
+  LumenOfTriangles lumen_;
+  MeshField field_;
+  double finest_mm_ = 0.0;
+  double base_scale_ = 1.0;
+  std::size_t max_bricks_ = 0;
+  bool out_of_memory_ = false;
+  std::vector<Cell> cells_;          // of each brick
+  std::vector<std::size_t> unused_;  // bricks that were split
+  std::priority_queue<Worst> worst_;
+  // of the brick at hand
+  std::array<double, MeshField::samples_per_brick> distance_{};
+  std::array<std::int32_t, MeshField::samples_per_brick> triangle_{};
+  std::vector<Test> tests_;
+  std::vector<TriangleBvh::Candidate> candidates_;
+};
+
+MeshField MeshField::build(const RepairedMesh& repaired, const FieldParameters& parameters) {
+  return MeshFieldBuilder(repaired, parameters).build(key(repaired, parameters));
+}
+
+std::uint64_t MeshField::key(const RepairedMesh& repaired, const FieldParameters& parameters) {
+  ContentHash hash;
+  hash.add(algorithm_version);
+  hash.add(content_hash(repaired.mesh));
+  for (double value : {parameters.band_outside_mm, parameters.near_mm, parameters.error_target_mm,
+                       parameters.error_slope, parameters.min_spacing_mm, parameters.virtual_tube_mm})
+    hash.add(value);
+  hash.add(static_cast<std::uint64_t>(parameters.max_bytes));
+  return hash.value();
+}
+
+}  // namespace endowire::vessel
