@@ -1,0 +1,14 @@
+# cmake -DPRESET=asan -P sanitizers.cmake: the library and its unit tests, simulations among them, run clean.
+cmake_minimum_required(VERSION 3.22)
+get_filename_component(root ${CMAKE_CURRENT_LIST_DIR}/../.. ABSOLUTE)
+cmake_host_system_information(RESULT jobs QUERY NUMBER_OF_LOGICAL_CORES)
+foreach(command
+    "${CMAKE_COMMAND} --preset ${PRESET}"
+    "${CMAKE_COMMAND} --build --preset ${PRESET} --parallel ${jobs}"
+    "${CMAKE_CTEST_COMMAND} --preset ${PRESET} --parallel ${jobs}")
+  separate_arguments(words UNIX_COMMAND ${command})
+  execute_process(COMMAND ${words} WORKING_DIRECTORY ${root} RESULT_VARIABLE result)
+  if(result)
+    message(FATAL_ERROR "failed: ${command}")
+  endif()
+endforeach()
