@@ -1,5 +1,6 @@
 #include "endowire/rod/chain.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -136,13 +137,13 @@ void add_joint(const JointDerivatives& d, const Frame& hand_side, double hand_le
   }
 }
 
-double add_stretch(double stiffness, double rest_length, const Eigen::Vector3d& t, int first, math::BandMatrix& hessian,
-                   std::vector<double>& gradient) {
+double add_stretch(double stiffness, double rest_length, double geometric_force, const Eigen::Vector3d& t, int first,
+                   math::BandMatrix& hessian, std::vector<double>& gradient) {
   const double length = t.norm();
   const Eigen::Vector3d e = t / length;
   const double force = stiffness * (length - rest_length);
-  const Eigen::Matrix3d h =
-      (stiffness - force / length) * e * e.transpose() + force / length * Eigen::Matrix3d::Identity();
+  const double turning = geometric_force / length;
+  const Eigen::Matrix3d h = (stiffness - turning) * e * e.transpose() + turning * Eigen::Matrix3d::Identity();
   for (int r = 0; r < 3; ++r) {
     gradient[at(first + r)] += force * e[r];
     gradient[at(first + 4 + r)] -= force * e[r];
@@ -152,19 +153,15 @@ double add_stretch(double stiffness, double rest_length, const Eigen::Vector3d& 
     }
     for (int c = 0; c < 3; ++c) hessian.lower(first + 4 + r, first + c) -= h(r, c);
   }
-  return 0.5 * stiffness * (length - rest_length) * (length - rest_length);
+  return 0.5 * force * (length - rest_length);
 }
 
 }  // namespace
 
-double add_chain_derivatives(const ChainMaterial& material, const ChainShape& shape, math::BandMatrix& hessian,
+double add_joint_derivatives(const ChainMaterial& material, const ChainShape& shape, math::BandMatrix& hessian,
                              std::vector<double>& gradient) {
   const int rods = shape.rods();
   double energy = 0.0;
-  for (int i = 0; i < rods; ++i) {
-    energy += add_stretch(material.stretch_n_per_mm[at(i)], material.length_mm[at(i)],
-                          shape.joints_mm[at(i)] - shape.joints_mm[at(i + 1)], 4 * i, hessian, gradient);
-  }
   JointDerivatives d;
   for (int j = 1; j < rods; ++j) {
     const double hand_length = (shape.joints_mm[at(j)] - shape.joints_mm[at(j + 1)]).norm();
@@ -176,83 +173,135 @@ double add_chain_derivatives(const ChainMaterial& material, const ChainShape& sh
   return energy;
 }
 
-void RetractScratch::reserve(int rods) {
-  for (auto* v : {&target, &diagonal, &off, &rhs}) v->reserve(at(rods));
-  tangent.reserve(at(rods));
+double add_stretch_derivatives(const ChainMaterial& material, const ChainShape& shape,
+                               const std::vector<double>& geometric_force_n, math::BandMatrix& hessian,
+                               std::vector<double>& gradient) {
+  double energy = 0.0;
+  for (int i = 0; i < shape.rods(); ++i) {
+    energy += add_stretch(material.stretch_n_per_mm[at(i)], material.length_mm[at(i)], geometric_force_n[at(i)],
+                          shape.joints_mm[at(i)] - shape.joints_mm[at(i + 1)], 4 * i, hessian, gradient);
+  }
+  return energy;
 }
 
-void RetractScratch::resize(int rods) {
-  for (auto* v : {&target, &diagonal, &off, &rhs}) v->resize(at(rods));
-  tangent.resize(at(rods));
+void TridiagonalScratch::reserve(int rods) {
+  for (auto* v : {&diagonal, &off, &rhs}) v->reserve(at(rods));
+}
+
+void TridiagonalScratch::resize(int rods) {
+  for (auto* v : {&diagonal, &off, &rhs}) v->resize(at(rods));
 }
 
 namespace {
 
-/// One Newton step of the length constraints: J Jᵀ λ = c, x −= Jᵀ λ, a tridiagonal system in λ.
-/// Returns the largest violation found before the step.
-double project_lengths(const std::vector<char>& held, RetractScratch& s, std::vector<Eigen::Vector3d>& x) {
-  const int rods = static_cast<int>(s.target.size());
-  double largest = 0.0;
-  for (int i = 0; i < rods; ++i) {
-    s.tangent[at(i)] = x[at(i)] - x[at(i + 1)];
-    const double length = s.tangent[at(i)].norm();
-    s.tangent[at(i)] /= length;
-    s.rhs[at(i)] = length - s.target[at(i)];
-    const double tip = held[at(i)] ? 0.0 : 1.0;
-    const double hand = held[at(i + 1)] ? 0.0 : 1.0;
-    if (tip + hand == 0.0) {
-      s.diagonal[at(i)] = 1.0;
-      s.rhs[at(i)] = 0.0;
-    } else {
-      s.diagonal[at(i)] = tip + hand;
-      largest = std::max(largest, std::abs(s.rhs[at(i)]));
-    }
-    if (i > 0) s.off[at(i)] = held[at(i)] ? 0.0 : -s.tangent[at(i - 1)].dot(s.tangent[at(i)]);
-  }
-  for (int i = 1; i < rods; ++i) {
+/// Solves the symmetric tridiagonal system in scratch: diagonal, off (entry i couples i − 1 and i), rhs → rhs.
+void solve_tridiagonal(TridiagonalScratch& s) {
+  const int n = static_cast<int>(s.rhs.size());
+  for (int i = 1; i < n; ++i) {
     const double factor = s.off[at(i)] / s.diagonal[at(i - 1)];
     s.diagonal[at(i)] -= factor * s.off[at(i)];
     s.rhs[at(i)] -= factor * s.rhs[at(i - 1)];
   }
-  for (int i = rods - 1; i >= 0; --i) {
-    if (i + 1 < rods) s.rhs[at(i)] -= s.off[at(i + 1)] * s.rhs[at(i + 1)];
+  for (int i = n - 1; i >= 0; --i) {
+    if (i + 1 < n) s.rhs[at(i)] -= s.off[at(i + 1)] * s.rhs[at(i + 1)];
     s.rhs[at(i)] /= s.diagonal[at(i)];
   }
-  for (int i = 0; i < rods; ++i) {
-    if (!held[at(i)]) x[at(i)] -= s.rhs[at(i)] * s.tangent[at(i)];
-    if (!held[at(i + 1)]) x[at(i + 1)] += s.rhs[at(i)] * s.tangent[at(i)];
-  }
-  return largest;
 }
 
 }  // namespace
 
-bool retract(const ChainShape& base, const std::vector<double>& direction, double alpha, const std::vector<char>& held,
-             RetractScratch& scratch, ChainShape& out) {
+void geometric_force_n(const ChainMaterial& material, const ChainShape& shape, const std::vector<double>& gradient,
+                       const std::vector<char>& held, TridiagonalScratch& s, std::vector<double>& out) {
+  const int rods = shape.rods();
+  s.resize(rods);
+  out.resize(at(rods));
+  const auto free_part = [&](int joint, const Eigen::Vector3d& v) {
+    return Eigen::Vector3d(held[at(4 * joint)] ? 0.0 : v[0], held[at(4 * joint + 1)] ? 0.0 : v[1],
+                           held[at(4 * joint + 2)] ? 0.0 : v[2]);
+  };
+  const auto force_on = [&](int joint) {
+    return free_part(joint, Eigen::Map<const Eigen::Vector3d>(gradient.data() + 4 * joint));
+  };
+  for (int i = 0; i < rods; ++i) {
+    const Eigen::Vector3d e = shape.frames[at(i)].col(2);
+    const Eigen::Vector3d tip = free_part(i, e);
+    s.diagonal[at(i)] = tip.dot(e) + free_part(i + 1, e).dot(e);
+    s.rhs[at(i)] = -e.dot(force_on(i) - force_on(i + 1));
+    s.off[at(i)] = i == 0 ? 0.0 : -tip.dot(shape.frames[at(i - 1)].col(2));
+    if (!(s.diagonal[at(i)] > 1e-6)) {
+      s.diagonal[at(i)] = 1.0;
+      s.rhs[at(i)] = 0.0;
+      s.off[at(i)] = 0.0;
+    }
+  }
+  solve_tridiagonal(s);
+  for (int i = 0; i < rods; ++i) {
+    const double present = axial_force_n(material, shape, i);
+    const double balancing = s.rhs[at(i)];
+    out[at(i)] = present * balancing <= 0.0             ? 0.0
+                 : std::abs(present) < std::abs(balancing) ? present
+                                                           : balancing;
+  }
+}
+
+namespace {
+
+/// Turns the rods of `out` so that the held coordinates of its tip come to `wanted`: each direction moves by
+/// w (I − e eᵀ) λ with w growing from 0 at the hand to 1 at the tip, λ from three linear equations, repeated.
+bool close_tip(const Eigen::Vector3d& wanted, const std::array<bool, 3>& held, ChainShape& out) {
+  const int rods = out.rods();
+  constexpr int kSweeps = 20;
+  constexpr double kTolerance_mm = 1e-12;
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    Eigen::Vector3d miss = Eigen::Vector3d::Zero();
+    for (int c = 0; c < 3; ++c) miss[c] = held[at(c)] ? wanted[c] - out.joints_mm[0][c] : 0.0;
+    if (miss.norm() <= kTolerance_mm * (1.0 + wanted.norm())) return true;
+    Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
+    const auto weight = [&](int i) { return static_cast<double>(rods - 1 - i) / rods; };
+    for (int i = 0; i < rods; ++i) {
+      const Eigen::Vector3d t = out.joints_mm[at(i)] - out.joints_mm[at(i + 1)];
+      m += weight(i) * t.norm() * (Eigen::Matrix3d::Identity() - t * t.transpose() / t.squaredNorm());
+    }
+    for (int c = 0; c < 3; ++c) {
+      if (held[at(c)]) continue;
+      m.row(c).setZero();
+      m.col(c).setZero();
+      m(c, c) = 1.0;
+    }
+    const Eigen::Vector3d lambda = m.ldlt().solve(miss);
+    Eigen::Vector3d old = out.joints_mm[at(rods)];
+    for (int i = rods - 1; i >= 0; --i) {
+      const Eigen::Vector3d t = out.joints_mm[at(i)] - old;
+      const double length = t.norm();
+      const Eigen::Vector3d e = t / length;
+      old = out.joints_mm[at(i)];
+      out.joints_mm[at(i)] = out.joints_mm[at(i + 1)] +
+                             length * (e + weight(i) * (lambda - e * e.dot(lambda))).normalized();
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+bool retract(const ChainShape& base, const std::vector<double>& direction, double alpha,
+             const std::array<bool, 3>& tip_held, ChainShape& out) {
   const int rods = base.rods();
-  scratch.resize(rods);
   out.resize(rods);
   const auto step = [&](int joint) {
     return Eigen::Vector3d(alpha * Eigen::Map<const Eigen::Vector3d>(direction.data() + 4 * joint));
   };
-  for (int j = 0; j <= rods; ++j) {
-    out.joints_mm[at(j)] = base.joints_mm[at(j)] + (4 * j + 2 < static_cast<int>(direction.size()) ? step(j) : Eigen::Vector3d::Zero());
-  }
-  for (int i = 0; i < rods; ++i) {
+  out.joints_mm[at(rods)] = base.joints_mm[at(rods)] + step(rods);
+  for (int i = rods - 1; i >= 0; --i) {
     const Eigen::Vector3d t = base.joints_mm[at(i)] - base.joints_mm[at(i + 1)];
-    const double length = t.norm();
-    const Eigen::Vector3d moved = out.joints_mm[at(i)] - out.joints_mm[at(i + 1)];
-    scratch.target[at(i)] = length + base.frames[at(i)].col(2).dot(moved - t);
-    if (!(scratch.target[at(i)] > 0.5 * length)) return false;
+    const Eigen::Vector3d moved = step(i) - step(i + 1);
+    const double length = t.norm() + t.dot(moved) / t.norm();
+    const Eigen::Vector3d turned = t + moved;
+    if (!(length > 0.5 * t.norm()) || !(turned.dot(t) > 0.0)) return false;
+    out.joints_mm[at(i)] = out.joints_mm[at(i + 1)] + length * turned.normalized();
   }
-  constexpr int kMaxSweeps = 8;
-  bool restored = false;
-  for (int sweep = 0; sweep < kMaxSweeps && !restored; ++sweep) {
-    const double violation = project_lengths(held, scratch, out.joints_mm);
-    if (!std::isfinite(violation)) return false;
-    // Newton converges quadratically: below the square root of the tolerance this sweep was the last needed.
-    restored = violation < 1e-6;
-  }
+  if ((tip_held[0] || tip_held[1] || tip_held[2]) && !close_tip(base.joints_mm[0] + step(0), tip_held, out)) return false;
+
   for (int i = 0; i < rods; ++i) {
     const Frame& old = base.frames[at(i)];
     const Eigen::Vector3d e = (out.joints_mm[at(i)] - out.joints_mm[at(i + 1)]).normalized();
@@ -266,11 +315,12 @@ bool retract(const ChainShape& base, const std::vector<double>& direction, doubl
     out.spin_rad[at(i)] = base.spin_rad[at(i)] + spin;
   }
   for (int j = 1; j < rods; ++j) {
-    out.twist_rad[at(j)] = twist_between(out.frames[at(j)], out.frames[at(j - 1)],
-                                         base.twist_rad[at(j)] + out.spin_rad[at(j - 1)] - base.spin_rad[at(j - 1)] -
-                                             (out.spin_rad[at(j)] - base.spin_rad[at(j)]));
+    const double spun_tip = out.spin_rad[at(j - 1)] - base.spin_rad[at(j - 1)];
+    const double spun_hand = out.spin_rad[at(j)] - base.spin_rad[at(j)];
+    out.twist_rad[at(j)] =
+        twist_between(out.frames[at(j)], out.frames[at(j - 1)], base.twist_rad[at(j)] + spun_tip - spun_hand);
   }
-  return restored;
+  return true;
 }
 
 }  // namespace endowire::rod

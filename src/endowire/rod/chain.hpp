@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "endowire/math/band_ldlt.hpp"
@@ -51,31 +52,52 @@ void fill_material_from(const MaterialLine& line, int first, double gravity_m_pe
 /// trial states keep the stretch that the linear step predicts: see retract().
 [[nodiscard]] double chain_energy(const ChainMaterial& material, const ChainShape& shape);
 
-/// Adds gradient and Hessian of chain_energy; returns the energy.
-double add_chain_derivatives(const ChainMaterial& material, const ChainShape& shape, math::BandMatrix& hessian,
+/// Adds gradient and Hessian of bending, twist and kink; returns their energy.
+double add_joint_derivatives(const ChainMaterial& material, const ChainShape& shape, math::BandMatrix& hessian,
                              std::vector<double>& gradient);
 
-/// Axial force in rod i, > 0 in tension [N].
-[[nodiscard]] double axial_force_n(const ChainMaterial& material, const ChainShape& shape, int rod);
+/// Adds gradient and Hessian of the stretch; returns its energy.
+///
+///   g = Cᵀ N,  H = Cᵀ (EA/l) C + Σ Nᵢ ∇∇|tᵢ|,  C the gradients of the lengths
+///
+/// N in the gradient is the force in the rod. N in the Hessian is an independent estimate, which must agree at
+/// equilibrium: see geometric_force_n.
+double add_stretch_derivatives(const ChainMaterial& material, const ChainShape& shape,
+                               const std::vector<double>& geometric_force_n, math::BandMatrix& hessian,
+                               std::vector<double>& gradient);
 
-/// Scratch of retract(), kept so that a step allocates nothing.
-struct RetractScratch {
-  std::vector<double> target, diagonal, off, rhs;
-  std::vector<Eigen::Vector3d> tangent;
+/// Scratch of geometric_force_n(), kept so that a step allocates nothing.
+struct TridiagonalScratch {
+  std::vector<double> diagonal, off, rhs;
   void reserve(int rods);
   void resize(int rods);
 };
 
-/// A point of the curve that starts at `base` along `direction` and keeps every rod's length at the value
-/// that the linear step predicts: |t_i| + α ê_i·δt_i.
+/// The axial forces that enter the Hessian.
 ///
-/// To first order the step is linear; the second order is the least motion of the joints that restores the lengths
-/// (constraint projection with the tridiagonal matrix of a chain). Along this curve the axial force changes linearly,
-/// as an independent unknown condensed out of the Newton matrix would: the two methods take the same steps.
-/// Source     the projection is that of [Ryckaert1977], solved directly.
-/// @param held  joints that the projection does not move (their direction entries still apply)
-/// @return      false when the lengths could not be restored: the step is too long
-bool retract(const ChainShape& base, const std::vector<double>& direction, double alpha, const std::vector<char>& held,
-             RetractScratch& scratch, ChainShape& out);
+/// A rod is so stiff that its present force says little about the force it will carry: a stray 1e-5 mm is newtons, and
+/// with those newtons in the geometric stiffness Newton crawls (100 iterations for an elastica of 100 rods). The force
+/// that best balances all other forces, min |g + CᵀN|², depends on the shape alone; but it is wild where a wire
+/// is pressed into a wall. Of the two the smaller is taken, none when they differ in sign: at equilibrium both are
+/// equal, so convergence stays quadratic.
+/// @param gradient  of everything but the stretch
+/// @param held      one per unknown; held joints do not balance
+void geometric_force_n(const ChainMaterial& material, const ChainShape& shape, const std::vector<double>& gradient,
+                       const std::vector<char>& held, TridiagonalScratch& scratch, std::vector<double>& out);
+
+/// Axial force in rod i, > 0 in tension [N].
+[[nodiscard]] double axial_force_n(const ChainMaterial& material, const ChainShape& shape, int rod);
+
+/// A point of the curve that starts at `base` along `direction`: every rod turns to the direction and takes the length that
+/// the linear step predicts, |t| + α e·δt, and the chain is laid out again from joint n.
+///
+/// Along this curve the axial forces change linearly, as independent unknowns condensed out of the Newton matrix would, and
+/// curvature stays as smooth as the step is. (Restoring the lengths by the least motion of the joints instead,
+/// as constraint projection does, bends the chain at second order times n².)
+/// @param tip_held  coordinates of the tip that must end where the linear step puts them; restored by turning the
+///                  rods, most at the tip
+/// @return          false when a rod would turn too far: the step is too long
+bool retract(const ChainShape& base, const std::vector<double>& direction, double alpha,
+             const std::array<bool, 3>& tip_held, ChainShape& out);
 
 }  // namespace endowire::rod

@@ -109,8 +109,10 @@ double MaterialLine::radius_mm(double arc_mm) const {
 
 double MaterialLine::friction(double arc_mm) const { return instrument_.sections[section_at(arc_mm)].friction; }
 
-double MaterialLine::rest_curvature_per_mm(double arc_mm) const {
-  return instrument_.sections[section_at(arc_mm)].rest_curvature_per_mm;
+Eigen::Vector2d MaterialLine::rest_curvature_per_mm(double arc_mm) const {
+  const Section& section = instrument_.sections[section_at(arc_mm)];
+  return section.rest_curvature_per_mm *
+         Eigen::Vector2d(std::cos(section.rest_plane_rad), std::sin(section.rest_plane_rad));
 }
 
 }  // namespace endowire::rod

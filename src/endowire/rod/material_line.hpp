@@ -31,7 +31,8 @@ class MaterialLine {
 
   [[nodiscard]] double radius_mm(double arc_mm) const;
   [[nodiscard]] double friction(double arc_mm) const;
-  [[nodiscard]] double rest_curvature_per_mm(double arc_mm) const;
+  /// κ0 as a vector in the material frame.
+  [[nodiscard]] Eigen::Vector2d rest_curvature_per_mm(double arc_mm) const;
 
  private:
   [[nodiscard]] std::size_t section_at(double arc_mm) const;

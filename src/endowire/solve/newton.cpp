@@ -110,7 +110,7 @@ SolveReport Newton::minimise(Problem& problem, const NewtonSpec& spec) {
       report.termination = Termination::left_domain;
       return report;
     }
-    const bool small_residual = residual.position <= spec.force_tolerance * scale.force_n + spec.force_floor_n &&
+    const bool small_residual = residual.position <= spec.force_tolerance * scale.force_n + scale.rounding_n + spec.force_floor_n &&
                                 residual.turn <= spec.force_tolerance * scale.moment_n_mm + spec.moment_floor_n_mm;
     if (definite && small_residual && correction.position <= spec.correction_tolerance_mm &&
         correction.turn <= spec.correction_tolerance_rad && problem.lag_error() <= spec.lag_tolerance) {

@@ -11,6 +11,7 @@ namespace endowire::solve {
 struct ForceScales {
   double force_n = 0.0;        ///< largest internal force
   double moment_n_mm = 0.0;    ///< largest internal moment
+  double rounding_n = 0.0;     ///< forces below this are rounding: stiffness · |x| · machine epsilon
 };
 
 /// What Newton needs of a mechanical problem: a base state, its derivatives, and a curve of trial states.
@@ -42,8 +43,8 @@ struct NewtonSpec {
   double correction_tolerance_mm = 1e-3;
   double correction_tolerance_rad = 1.7453e-4;  ///< 0.01°
   double force_tolerance = 1e-6;                ///< of ForceScales
-  double force_floor_n = 1e-8;                  ///< rounding of EA/l · |x|: 1e4 N/mm · 1e-13 · 500 mm, rounded down
-  double moment_floor_n_mm = 1e-8;
+  double force_floor_n = 1e-9;                  ///< added to ForceScales::rounding_n
+  double moment_floor_n_mm = 1e-9;
   double lag_tolerance = 2e-3;                  ///< relative change of the lagged quantities at the end
   double max_step_mm = 2.0;                     ///< longest motion of a joint in one iteration
   double max_turn_rad = 0.5;
@@ -60,7 +61,7 @@ struct NewtonSpec {
 ///        has no force of its own at the end: nothing to iterate away, no lag.
 /// W      1 N/mm for positions and 1 N·mm for turns.
 /// α      from min(1, step limits), halved until the merit has decreased by 1e-4 of the linear prediction (Armijo).
-/// Stops  converged when, with λ = 0:  |d| ≤ correction tolerances,  |g| ≤ force_tolerance · scale + floor  for
+/// Stops  converged when, with λ = 0:  |d| ≤ correction tolerances,  |g| ≤ force_tolerance · scale + rounding + floor  for
 ///        forces and moments, and the lagged quantities are within lag_tolerance of their present values.
 class Newton {
  public:

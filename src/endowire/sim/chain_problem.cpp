@@ -1,0 +1,268 @@
+#include "endowire/sim/chain_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "endowire/base/contract.hpp"
+#include "endowire/math/transport.hpp"
+
+namespace endowire::sim {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Turn of a tangent about an axis, from a fixed normal of that axis, in the branch nearest to `near_rad`.
+double turn_about(const Eigen::Vector3d& axis, const Eigen::Vector3d& tangent, double near_rad) {
+  const Eigen::Vector3d a = math::any_normal(axis);
+  const double angle = std::atan2(axis.cross(a).dot(tangent), a.dot(tangent));
+  return angle + 2.0 * M_PI * std::round((near_rad - angle) / (2.0 * M_PI));
+}
+
+double grip_energy(const contact::FrictionLaw& law, double displacement) {
+  return contact::friction_energy_mj(law, {displacement, 0.0});
+}
+
+}  // namespace
+
+void ChainProblem::reserve(int rods, std::size_t samples) {
+  material.reserve(rods);
+  shape.reserve(rods);
+  trial_.reserve(rods);
+  scratch_.reserve(rods);
+  contact.reserve(samples);
+  const auto unknowns = at(4 * (rods + 1));
+  held.reserve(unknowns);
+  cartesian_.reserve(unknowns);
+  geometric_force_.reserve(at(rods));
+}
+
+void ChainProblem::release_all() {
+  held.assign(at(unknowns()), 0);
+  const int n = shape.rods();
+  for (int c = 0; c < 4; ++c) held[at(4 * n + c)] = 1;
+}
+
+void ChainProblem::hold_joint(int joint, bool x, bool y, bool z) {
+  held[at(4 * joint)] |= static_cast<char>(x);
+  held[at(4 * joint + 1)] |= static_cast<char>(y);
+  held[at(4 * joint + 2)] |= static_cast<char>(z);
+}
+
+void ChainProblem::hold_spin(int rod) { held[at(4 * rod + 3)] = 1; }
+
+void ChainProblem::clamp_hand_end() {
+  const int n = shape.rods();
+  hold_joint(n - 1, true, true, true);
+  hold_spin(n - 1);
+}
+
+void ChainProblem::fit_sheath_rod(double inserted_mm) {
+  ENDOWIRE_EXPECTS(line != nullptr, "a feed needs the wire it feeds");
+  const int n = shape.rods();
+  const double arc = material.arc_mm[at(n - 1)];
+  const double half = inserted_mm - arc;
+  material.arc_mm[at(n)] = inserted_mm + half;
+  material.length_mm[at(n - 1)] = 2.0 * half;
+  material.stretch_n_per_mm[at(n - 1)] = 0.0;
+  material.weight_n[at(n - 1)] = 0.0;
+  material.weight_n[at(n)] = 0.0;
+  rod::JointMaterial& joint = material.joints[at(n - 1)];
+  const double from = arc - 0.5 * material.length_mm[at(n - 2)];
+  joint.span_mm = inserted_mm - from;
+  joint.rest_bend_rad = line->rest_bend_rad(from, inserted_mm);
+}
+
+double ChainProblem::potential(const rod::ChainShape& at_shape) {
+  double energy = rod::chain_energy(material, at_shape);
+  const int n = at_shape.rods();
+  for (int j = 0; j <= n; ++j) energy -= material.weight_n[at(j)] * loads.gravity_direction.dot(at_shape.joints_mm[at(j)]);
+  energy -= loads.tip_force_n.dot(at_shape.joints_mm[0]);
+  if (loads.tip_moment_n_mm != 0.0) {
+    energy -= loads.tip_moment_n_mm * turn_about(loads.tip_moment_axis, at_shape.frames[0].col(2), moment_turn_);
+  }
+  energy += contact.energy_mj(at_shape);
+  return energy;
+}
+
+double ChainProblem::energy_mj() {
+  double energy = potential(shape);
+  if (feed.active) energy += grip_energy(feed.push, feed.stretch_mm) + grip_energy(feed.torque, feed.twist_rad);
+  return energy;
+}
+
+double ChainProblem::add_loads(math::BandMatrix& hessian, std::vector<double>& gradient) const {
+  const int n = shape.rods();
+  double energy = 0.0;
+  for (int j = 0; j <= n; ++j) {
+    const Eigen::Vector3d weight = material.weight_n[at(j)] * loads.gravity_direction;
+    energy -= weight.dot(shape.joints_mm[at(j)]);
+    for (int c = 0; c < 3; ++c) gradient[at(4 * j + c)] -= weight[c];
+  }
+  energy -= loads.tip_force_n.dot(shape.joints_mm[0]);
+  for (int c = 0; c < 3; ++c) gradient[at(c)] -= loads.tip_force_n[c];
+  if (loads.tip_moment_n_mm == 0.0) return energy;
+  // ψ = atan2(q·t, p·t): ∇ψ = s/|t|, s = axis × e;  ∇∇ψ = −(e sᵀ + s eᵀ)/|t|², for t normal to the axis.
+  const Eigen::Vector3d t = shape.joints_mm[0] - shape.joints_mm[1];
+  const double length = t.norm();
+  const Eigen::Vector3d e = t / length;
+  const Eigen::Vector3d s = loads.tip_moment_axis.cross(e);
+  const double m = loads.tip_moment_n_mm;
+  const Eigen::Matrix3d h = m / (length * length) * (e * s.transpose() + s * e.transpose());
+  for (int r = 0; r < 3; ++r) {
+    gradient[at(r)] -= m * s[r] / length;
+    gradient[at(4 + r)] += m * s[r] / length;
+    for (int c = 0; c <= r; ++c) {
+      hessian.lower(r, c) += h(r, c);
+      hessian.lower(4 + r, 4 + c) += h(r, c);
+    }
+    for (int c = 0; c < 3; ++c) hessian.lower(4 + r, c) -= h(r, c);
+  }
+  return energy - m * turn_about(loads.tip_moment_axis, e, moment_turn_);
+}
+
+/// Turns the axes of the last free joint so that its first unknown is the motion along the sheath; the others are held.
+void ChainProblem::onto_sheath_line(math::BandMatrix& hessian, std::vector<double>& gradient) const {
+  const int first = 4 * (shape.rods() - 1);
+  const Eigen::Vector3d& d = feed.direction;
+  double along = 0.0;
+  for (int c = 0; c < 3; ++c) along += d[c] * gradient[at(first + c)];
+  gradient[at(first)] = along;
+  for (int column = std::max(0, first - 8); column < first; ++column) {
+    double sum = 0.0;
+    for (int c = 0; c < 3; ++c) {
+      if (first + c - column <= math::BandMatrix::kHalfBandwidth) sum += d[c] * hessian.lower(first + c, column);
+    }
+    hessian.lower(first, column) = sum;
+  }
+  double diagonal = 0.0;
+  double spin = 0.0;
+  for (int r = 0; r < 3; ++r) {
+    spin += d[r] * hessian.lower(first + 3, first + r);
+    for (int c = 0; c < 3; ++c) diagonal += d[r] * d[c] * hessian.lower(first + std::max(r, c), first + std::min(r, c));
+  }
+  hessian.lower(first, first) = diagonal;
+  hessian.lower(first + 3, first) = spin;
+}
+
+double ChainProblem::add_feed(math::BandMatrix& hessian, std::vector<double>& gradient) {
+  const int n = shape.rods();
+  const int u = 4 * (n - 1);
+  onto_sheath_line(hessian, gradient);
+
+  // The span and the rest bend of the joint at the sheath grow with the wire that enters:
+  //   ∂E/∂L = −E/l̄ + ∂E/∂κ̄ · κ0,  the configurational force of a sliding sleeve [Bigoni2015].
+  rod::JointMaterial joint = material.joints[at(n - 1)];
+  joint.kink_per_mm = std::numeric_limits<double>::infinity();  // its law is taken at the span of the base state
+  rod::JointDerivatives d;
+  rod::joint_derivatives(joint, shape.frames[at(n - 1)], shape.frames[at(n - 2)], shape.twist_rad[at(n - 1)], d);
+  const Eigen::Vector2d k0 = line->rest_curvature_per_mm(feed.inserted_mm);
+  const double span = joint.span_mm;
+  const double rest = d.rest_gradient.dot(k0);
+  gradient[at(u)] += rest - d.energy_mj / span;
+  hessian.lower(u, u) += 2.0 * d.energy_mj / (span * span) - 2.0 * rest / span +
+                         k0.dot(joint.bend_n_mm2.cwiseProduct(k0)) / span;
+  const rod::Turns mixed = d.rest_turn.transpose() * k0 - d.gradient / span;
+  const Eigen::Vector3d t = shape.joints_mm[at(n - 2)] - shape.joints_mm[at(n - 1)];
+  const Eigen::Vector3d tip = shape.frames[at(n - 2)].leftCols<2>() * mixed.segment<2>(3) / t.norm();
+  for (int c = 0; c < 3; ++c) hessian.lower(u, u - 4 + c) += tip[c];
+  hessian.lower(u, u - 1) += mixed[5];
+  hessian.lower(u, u) -= 2.0 * tip.dot(feed.direction);
+  hessian.lower(u + 3, u) += mixed[2];
+
+  const auto push = contact::friction_response(feed.push, {feed.stretch_mm, 0.0});
+  const auto torque = contact::friction_response(feed.torque, {feed.twist_rad, 0.0});
+  gradient[at(u)] -= push.force_n[0];
+  hessian.lower(u, u) += push.stiffness_n_per_mm(0, 0);
+  gradient[at(u + 3)] -= torque.force_n[0];
+  hessian.lower(u + 3, u + 3) += torque.stiffness_n_per_mm(0, 0);
+  return push.energy_mj + torque.energy_mj;
+}
+
+double ChainProblem::linearise(math::BandMatrix& hessian, std::vector<double>& gradient) {
+  double energy = rod::add_joint_derivatives(material, shape, hessian, gradient);
+  if (loads.tip_moment_n_mm != 0.0) {
+    moment_turn_ = turn_about(loads.tip_moment_axis, shape.frames[0].col(2), moment_turn_);
+  }
+  energy += add_loads(hessian, gradient);
+  energy += contact.add_derivatives(shape, hessian, gradient);
+  rod::geometric_force_n(material, shape, gradient, held, scratch_, geometric_force_);
+  energy += rod::add_stretch_derivatives(material, shape, geometric_force_, hessian, gradient);
+  if (feed.active) energy += add_feed(hessian, gradient);
+  for (int i = 0; i < unknowns(); ++i) {
+    if (!held[at(i)]) continue;
+    hessian.fix(i);
+    gradient[at(i)] = 0.0;
+  }
+  measure_scales();
+  return energy;
+}
+
+double ChainProblem::try_step(const std::vector<double>& direction, double alpha) {
+  const int n = shape.rods();
+  cartesian_.assign(direction.begin(), direction.end());
+  trial_feed_ = feed;
+  if (feed.active) {
+    const double u = direction[at(4 * (n - 1))];
+    const double spin = direction[at(4 * (n - 1) + 3)];
+    for (int c = 0; c < 3; ++c) {
+      cartesian_[at(4 * (n - 1) + c)] = u * feed.direction[c];
+      cartesian_[at(4 * n + c)] = -u * feed.direction[c];
+    }
+    trial_feed_.inserted_mm += alpha * u;
+    trial_feed_.stretch_mm -= alpha * u;
+    trial_feed_.twist_rad -= alpha * spin;
+    const double half = trial_feed_.inserted_mm - material.arc_mm[at(n - 1)];
+    if (!(half > 0.0)) return std::numeric_limits<double>::infinity();
+  }
+  if (!rod::retract(shape, cartesian_, alpha, {held[0] != 0, held[1] != 0, held[2] != 0}, trial_)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  if (!feed.active) return potential(trial_);
+  fit_sheath_rod(trial_feed_.inserted_mm);
+  return potential(trial_) + grip_energy(trial_feed_.push, trial_feed_.stretch_mm) +
+         grip_energy(trial_feed_.torque, trial_feed_.twist_rad);
+}
+
+void ChainProblem::accept_step() {
+  std::swap(shape, trial_);
+  feed = trial_feed_;
+}
+
+bool ChainProblem::inside_region() const {
+  for (const contact::Sample& s : contact.samples()) {
+    if ((s.position_mm(shape) - s.detected_at_mm).norm() > region_mm + std::max(0.0, s.clearance_mm)) return false;
+  }
+  return true;
+}
+
+void ChainProblem::measure_scales() {
+  scales_ = {loads.tip_force_n.norm(), std::abs(loads.tip_moment_n_mm), 0.0};
+  const int n = shape.rods();
+  for (int i = 0; i < n; ++i) {
+    scales_.force_n = std::max(scales_.force_n, std::abs(rod::axial_force_n(material, shape, i)));
+    // A joint's position is rounded to half an ulp in each coordinate, and a joint feels two rods.
+    scales_.rounding_n = std::max(scales_.rounding_n, 4.0 * std::numeric_limits<double>::epsilon() *
+                                                          material.stretch_n_per_mm[at(i)] *
+                                                          shape.joints_mm[at(i)].cwiseAbs().maxCoeff());
+  }
+  for (int j = 1; j < n; ++j) {
+    const rod::JointMaterial& joint = material.joints[at(j)];
+    const double angle = std::acos(std::clamp(shape.frames[at(j)].col(2).dot(shape.frames[at(j - 1)].col(2)), -1.0, 1.0));
+    const double bend = joint.bend_n_mm2.maxCoeff() * (angle + joint.rest_bend_rad.norm()) / joint.span_mm;
+    const double twist = joint.twist_n_mm2 * std::abs(shape.twist_rad[at(j)] - joint.rest_twist_rad) / joint.span_mm;
+    scales_.moment_n_mm = std::max({scales_.moment_n_mm, bend, twist});
+  }
+  for (const contact::Sample& s : contact.samples()) scales_.force_n = std::max(scales_.force_n, s.normal_n);
+}
+
+double ChainProblem::push_force_n() const {
+  return contact::friction_response(feed.push, {feed.stretch_mm, 0.0}).force_n[0];
+}
+
+double ChainProblem::hand_torque_n_mm() const {
+  return contact::friction_response(feed.torque, {feed.twist_rad, 0.0}).force_n[0];
+}
+
+}  // namespace endowire::sim

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "endowire/contact/contact_set.hpp"
+#include "endowire/contact/friction.hpp"
+#include "endowire/rod/chain.hpp"
+#include "endowire/solve/newton.hpp"
+
+namespace endowire::sim {
+
+/// Dead loads on a chain; energies, so that Newton sees their potential.
+struct Loads {
+  /// Weight is ChainMaterial::weight_n along this unit direction.
+  Eigen::Vector3d gravity_direction = Eigen::Vector3d::Zero();
+  /// A force on the tip joint that keeps its direction: −F·x₀.
+  Eigen::Vector3d tip_force_n = Eigen::Vector3d::Zero();
+  /// A moment on the tip rod about a fixed axis: −M ψ, ψ the turn of its tangent about the axis.
+  /// Domain: the tangent stays normal to the axis (plane problems).
+  Eigen::Vector3d tip_moment_axis = Eigen::Vector3d::UnitZ();
+  double tip_moment_n_mm = 0.0;
+};
+
+/// The hand at the end of the sheath: the last two joints lie on the line of the sheath, symmetric about its end, so that
+/// position and tangent are held at the middle of that rod. Along the line and about it the wire hangs on
+/// the hand by a stiff spring that slips at the grip's limit: F_max|δ| with δ the slip, both unknowns of the
+/// same minimisation as the shape.
+struct Feed {
+  bool active = false;
+  Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
+  double inserted_mm = 0.0;        ///< length beyond the sheath in the base state
+  contact::FrictionLaw push;       ///< [N/mm], [N]
+  contact::FrictionLaw torque;     ///< [N·mm/rad], [N·mm]
+  double stretch_mm = 0.0;         ///< hand ahead of wire in the base state: pushes
+  double twist_rad = 0.0;          ///< hand ahead of wire in the base state: turns it
+};
+
+/// A chain of rods with its loads, ends, contacts and hand, as a problem to minimise:
+///
+///   Π = bending + twist + stretch + gravity + loads + wall + friction (normal forces lagged) + grip
+///
+/// This is the merit of the line search. Joint n is always held; `held` names further fixed unknowns.
+class ChainProblem final : public solve::Problem {
+ public:
+  rod::ChainMaterial material;
+  rod::ChainShape shape;            ///< base state
+  Loads loads;
+  Feed feed;
+  contact::ContactSet contact;
+  const rod::MaterialLine* line = nullptr;  ///< needed by a feed: what enters the lumen
+  std::vector<char> held;           ///< one per unknown: 4(n + 1)
+  double region_mm = 1e9;           ///< the base state may move this far from where detection saw it
+
+  void reserve(int rods, std::size_t samples);
+  /// No unknown held but joint n.
+  void release_all();
+  void hold_joint(int joint, bool x, bool y, bool z);
+  void hold_spin(int rod);
+  /// Holds the last rod: a clamp at its middle.
+  void clamp_hand_end();
+
+  /// Adapts the rod at the sheath to feed.inserted_mm: its length, span and rest bend.
+  void fit_sheath_rod(double inserted_mm);
+
+  [[nodiscard]] int unknowns() const override { return 4 * (shape.rods() + 1); }
+  double linearise(math::BandMatrix& hessian, std::vector<double>& gradient) override;
+  double try_step(const std::vector<double>& direction, double alpha) override;
+  void accept_step() override;
+  [[nodiscard]] solve::ForceScales scales() const override { return scales_; }
+  [[nodiscard]] double lag_error() const override { return contact.lag_error(); }
+  void renew_lagged() override { contact.renew_lagged(); }
+  [[nodiscard]] bool inside_region() const override;
+
+  /// Force and torque of the hand on the wire at the base state.
+  [[nodiscard]] double push_force_n() const;
+  [[nodiscard]] double hand_torque_n_mm() const;
+  /// Energy of the base state with fixed normal forces.
+  [[nodiscard]] double energy_mj();
+
+ private:
+  [[nodiscard]] double potential(const rod::ChainShape& at);
+  double add_loads(math::BandMatrix& hessian, std::vector<double>& gradient) const;
+  double add_feed(math::BandMatrix& hessian, std::vector<double>& gradient);
+  void onto_sheath_line(math::BandMatrix& hessian, std::vector<double>& gradient) const;
+  void measure_scales();
+
+  rod::ChainShape trial_;
+  Feed trial_feed_;
+  rod::TridiagonalScratch scratch_;
+  std::vector<double> cartesian_;
+  std::vector<double> geometric_force_;
+  solve::ForceScales scales_;
+  double moment_turn_ = 0.0;
+};
+
+}  // namespace endowire::sim
