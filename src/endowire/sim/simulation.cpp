@@ -1,0 +1,464 @@
+#include "endowire/sim/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "endowire/base/error.hpp"
+#include "endowire/math/transport.hpp"
+#include "endowire/sim/chain_problem.hpp"
+#include "endowire/sim/grid.hpp"
+#include "endowire/sim/measure.hpp"
+#include "endowire/sim/predictor.hpp"
+
+namespace endowire::sim {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// A joint enters when it is this far beyond the sheath, and leaves when it would be nearer than half of that: the rod at
+/// the sheath, twice as long, never gets so short that its stiffness spoils the matrix.
+constexpr double kEntry_mm = 1.0;
+constexpr double kLeave_mm = 0.5;
+/// Largest turn of the unloaded wire at one joint: pre-curved tips get shorter rods.
+constexpr double kMaxBias_rad = 0.15;
+/// A joint that moves this far from its prediction within one step has snapped.
+constexpr double kSnap_mm = 1.5;
+/// Local walls hold this far around the place of detection; a state beyond is detected anew.
+constexpr double kRegion_mm = 1.0;
+/// Detections within one sub-step: a snap crosses the lumen in pieces of kRegion_mm.
+constexpr int kMaxDetections = 40;
+constexpr double kStandardGravity_floor = 1e-12;
+
+[[noreturn]] void refuse(const std::string& text) { throw base::InputError(text); }
+
+std::string show(const Eigen::Vector3d& v) {
+  std::ostringstream text;
+  text << "[" << v[0] << ", " << v[1] << ", " << v[2] << "]";
+  return text.str();
+}
+
+}  // namespace
+
+class Simulation::Impl {
+ public:
+  Impl(std::shared_ptr<const vessel::Field> field, rod::Instrument instrument, Access access, SimulationSpec spec);
+
+  const StepReport& step(const Command& command);
+  void restore(const State& state);
+  void save(State& out) const;
+  void snapshot(Snapshot& out) const;
+
+  State state_;  ///< the last converged state
+  StepReport report_;
+
+ private:
+  bool advance(const Command& command, int split);
+  bool advance_once(const Command& command);
+  bool settle();
+  void enter(double inserted_mm, double turn_rad);
+  void adapt_sheath(double inserted_mm);
+  void insert_joint();
+  void remove_joint();
+  void prepare_material(double inserted_mm);
+  void finish(const Command& command);
+  void measure();
+  [[nodiscard]] bool in_sheath() const { return problem_.shape.rods() == 0; }
+  [[nodiscard]] double first_inside_mm() const { return grid_[1] + kEntry_mm; }
+
+  std::shared_ptr<const vessel::Field> field_;
+  rod::MaterialLine line_;
+  Access access_;
+  SimulationSpec spec_;
+  contact::ContactSpec contact_spec_;
+  solve::NewtonSpec newton_spec_;
+  std::vector<double> grid_;
+  double gravity_m_per_s2_ = 0.0;
+
+  ChainProblem problem_;
+  solve::Newton newton_;
+  contact::FrictionMemory friction_;
+  double hand_turn_rad_ = 0.0;
+  std::vector<Eigen::Vector3d> trace_;
+  std::vector<Eigen::Vector3d> predicted_;
+};
+
+Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrument instrument, Access access,
+                       SimulationSpec spec)
+    : field_(std::move(field)), line_(std::move(instrument)), access_(access), spec_(spec) {
+  if (!(access_.direction.norm() > 1e-9) || !access_.direction.allFinite()) {
+    refuse("access.direction is " + show(access_.direction) + "; must be a finite vector, not zero");
+  }
+  if (!access_.position_mm.allFinite()) refuse("access.position_mm is " + show(access_.position_mm) + "; must be finite");
+  access_.direction.normalize();
+  const double height = field_->at(access_.position_mm).distance_mm;
+  if (!(height > 0.0)) {
+    std::ostringstream text;
+    text << "access.position_mm is " << show(access_.position_mm) << ", " << -height
+         << " mm outside the lumen; must lie inside";
+    refuse(text.str());
+  }
+  const double radius = line_.radius_mm(0.0);
+  if (height < radius) {
+    std::ostringstream text;
+    text << "access.position_mm is " << show(access_.position_mm) << ", " << height << " mm from the wall; must be at least "
+         << radius << " mm, the radius of " << line_.instrument().model;
+    refuse(text.str());
+  }
+
+  const SolverSpec& solver = spec_.solver;
+  contact_spec_.wall = spec_.wall;
+  contact_spec_.stick_stiffness_ratio = solver.stick_stiffness_ratio;
+  newton_spec_.correction_tolerance_mm = solver.correction_tolerance_mm;
+  newton_spec_.correction_tolerance_rad = solver.correction_tolerance_deg * M_PI / 180.0;
+  newton_spec_.force_tolerance = solver.force_tolerance;
+  newton_spec_.proximal_scale = solver.proximal_scale;
+  newton_spec_.max_iterations = solver.max_iterations;
+
+  grid_ = uniform_grid(line_, solver.rod_length_mm, kMaxBias_rad);
+  gravity_m_per_s2_ = spec_.gravity_m_per_s2.norm();
+  problem_.line = &line_;
+  problem_.region_mm = kRegion_mm;
+  if (gravity_m_per_s2_ > kStandardGravity_floor) {
+    problem_.loads.gravity_direction = spec_.gravity_m_per_s2 / gravity_m_per_s2_;
+  }
+  Feed& feed = problem_.feed;
+  feed.active = true;
+  feed.point_mm = access_.position_mm;
+  feed.direction = access_.direction;
+  feed.push = {solver.grip_stiffness_n_per_mm, line_.instrument().grip_force_n};
+  // The same stiffness at a lever of one millimetre.
+  feed.torque = {solver.grip_stiffness_n_per_mm, line_.instrument().grip_torque_n_mm};
+
+  const auto joints = static_cast<int>(grid_.size()) + 1;
+  const std::size_t samples = 4 * grid_.size() + 256;
+  problem_.reserve(joints, samples);
+  newton_.reserve(4 * (joints + 1));
+  friction_.reserve(samples);
+  trace_.reserve(at(joints + 1));
+  predicted_.reserve(at(joints + 1));
+  report_.events.reserve(16);
+  state_.joints_mm.reserve(at(joints + 1));
+  state_.directors.reserve(at(joints));
+  state_.spin_rad.reserve(at(joints));
+  state_.twist_rad.reserve(at(joints + 1));
+  state_.friction.reserve(samples);
+}
+
+void Simulation::Impl::save(State& out) const {
+  const rod::ChainShape& shape = problem_.shape;
+  out.inserted_mm = problem_.feed.inserted_mm;
+  out.hand_turn_rad = hand_turn_rad_;
+  out.grip_stretch_mm = problem_.feed.stretch_mm;
+  out.grip_twist_rad = problem_.feed.twist_rad;
+  out.joints_mm.assign(shape.joints_mm.begin(), shape.joints_mm.end());
+  out.directors.resize(shape.frames.size());
+  for (std::size_t i = 0; i < shape.frames.size(); ++i) out.directors[i] = shape.frames[i].col(0);
+  out.spin_rad.assign(shape.spin_rad.begin(), shape.spin_rad.end());
+  out.twist_rad.assign(shape.twist_rad.begin(), shape.twist_rad.end());
+  out.friction.arc_mm.assign(friction_.arc_mm.begin(), friction_.arc_mm.end());
+  out.friction.anchor_mm.assign(friction_.anchor_mm.begin(), friction_.anchor_mm.end());
+  out.friction.normal_n_per_mm.assign(friction_.normal_n_per_mm.begin(), friction_.normal_n_per_mm.end());
+}
+
+void Simulation::Impl::restore(const State& state) {
+  const std::size_t rods = state.directors.size();
+  const bool consistent = rods == 0 ? state.joints_mm.empty()
+                                    : state.joints_mm.size() == rods + 1 && state.spin_rad.size() == rods &&
+                                          state.twist_rad.size() == rods + 1 && rods >= 2 && rods < grid_.size() + 1;
+  if (!consistent) refuse("state: sizes of joints, directors, spin and twist do not belong together or to this instrument");
+  if (&state != &state_) state_ = state;
+  rod::ChainShape& shape = problem_.shape;
+  hand_turn_rad_ = state.hand_turn_rad;
+  problem_.feed.inserted_mm = state.inserted_mm;
+  problem_.feed.stretch_mm = state.grip_stretch_mm;
+  problem_.feed.twist_rad = state.grip_twist_rad;
+  if (rods == 0) {
+    shape.joints_mm.clear();
+    shape.frames.clear();
+    shape.spin_rad.clear();
+    shape.twist_rad.clear();
+  } else {
+    shape.resize(static_cast<int>(rods));
+    shape.joints_mm.assign(state.joints_mm.begin(), state.joints_mm.end());
+    shape.spin_rad.assign(state.spin_rad.begin(), state.spin_rad.end());
+    shape.twist_rad.assign(state.twist_rad.begin(), state.twist_rad.end());
+    for (std::size_t i = 0; i < rods; ++i) {
+      const Eigen::Vector3d e = (shape.joints_mm[i] - shape.joints_mm[i + 1]).normalized();
+      shape.frames[i].col(0) = state.directors[i];
+      shape.frames[i].col(1) = e.cross(state.directors[i]);
+      shape.frames[i].col(2) = e;
+    }
+    prepare_material(state.inserted_mm);
+  }
+  friction_.arc_mm.assign(state.friction.arc_mm.begin(), state.friction.arc_mm.end());
+  friction_.anchor_mm.assign(state.friction.anchor_mm.begin(), state.friction.anchor_mm.end());
+  friction_.normal_n_per_mm.assign(state.friction.normal_n_per_mm.begin(), state.friction.normal_n_per_mm.end());
+  problem_.contact.clear();
+}
+
+/// Material of the present joints, with the wire inserted so far.
+void Simulation::Impl::prepare_material(double inserted_mm) {
+  const int n = problem_.shape.rods();
+  rod::ChainMaterial& material = problem_.material;
+  material.resize(n);
+  for (int j = 0; j < n; ++j) material.arc_mm[at(j)] = grid_[at(j)];
+  material.arc_mm[at(n)] = 2.0 * inserted_mm - grid_[at(n - 1)];
+  rod::fill_material_from(line_, 0, gravity_m_per_s2_, spec_.blood_density_g_per_mm3, material);
+  problem_.fit_sheath_rod(inserted_mm);
+}
+
+/// The tip comes out of the sheath: the two first rods, straight.
+void Simulation::Impl::enter(double inserted_mm, double turn_rad) {
+  rod::ChainShape& shape = problem_.shape;
+  shape.resize(2);
+  for (int j = 0; j < 2; ++j) {
+    shape.joints_mm[at(j)] = access_.position_mm + (inserted_mm - grid_[at(j)]) * access_.direction;
+  }
+  shape.joints_mm[2] = access_.position_mm - (inserted_mm - grid_[1]) * access_.direction;
+  const Eigen::Vector3d m1 =
+      math::spin_about(math::any_normal(access_.direction), access_.direction, turn_rad);
+  for (int i = 0; i < 2; ++i) {
+    shape.frames[at(i)].col(0) = m1;
+    shape.frames[at(i)].col(1) = access_.direction.cross(m1);
+    shape.frames[at(i)].col(2) = access_.direction;
+    shape.spin_rad[at(i)] = turn_rad;
+  }
+  std::fill(shape.twist_rad.begin(), shape.twist_rad.end(), 0.0);
+  problem_.feed.inserted_mm = inserted_mm;
+  prepare_material(inserted_mm);
+}
+
+/// A joint enters: it divides the rod at the sheath, which is straight, and takes its share of the twist there.
+void Simulation::Impl::insert_joint() {
+  rod::ChainShape& shape = problem_.shape;
+  const int n = shape.rods();
+  const double inserted = problem_.feed.inserted_mm;
+  const double half = inserted - grid_[at(n)];
+  const double span_before = problem_.material.joints[at(n - 1)].span_mm;
+  const double span_sheath = half + 0.5 * (grid_[at(n)] - grid_[at(n - 1)]);
+  const double twist = shape.twist_rad[at(n - 1)];
+  const double at_sheath = twist * span_sheath / span_before;
+  shape.resize(n + 1);
+  shape.joints_mm[at(n)] = access_.position_mm + half * access_.direction;
+  shape.joints_mm[at(n + 1)] = access_.position_mm - half * access_.direction;
+  shape.frames[at(n)] = shape.frames[at(n - 1)];
+  shape.spin_rad[at(n)] = shape.spin_rad[at(n - 1)];
+  rod::Frame& freed = shape.frames[at(n - 1)];
+  freed.col(0) = math::spin_about(freed.col(0), freed.col(2), at_sheath);
+  freed.col(1) = freed.col(2).cross(freed.col(0));
+  shape.spin_rad[at(n - 1)] += at_sheath;
+  shape.twist_rad[at(n - 1)] = twist - at_sheath;
+  shape.twist_rad[at(n)] = at_sheath;
+  prepare_material(inserted);
+}
+
+/// The joint nearest to the sheath leaves: the rod beyond it is laid on the line of the sheath.
+void Simulation::Impl::remove_joint() {
+  rod::ChainShape& shape = problem_.shape;
+  const int n = shape.rods();
+  const double half = problem_.feed.inserted_mm - grid_[at(n - 2)];
+  const rod::Frame sheath = shape.frames[at(n - 1)];
+  const double twist = shape.twist_rad[at(n - 1)] + shape.twist_rad[at(n - 2)];
+  const double spin = shape.spin_rad[at(n - 1)];
+  shape.resize(n - 1);
+  shape.joints_mm[at(n - 2)] = access_.position_mm + half * access_.direction;
+  shape.joints_mm[at(n - 1)] = access_.position_mm - half * access_.direction;
+  shape.frames[at(n - 2)] = sheath;
+  shape.spin_rad[at(n - 2)] = spin;
+  shape.twist_rad[at(n - 1)] = 0.0;
+  shape.twist_rad[at(n - 2)] = 0.0;
+  if (n > 2) {
+    rod::Frame& next = shape.frames[at(n - 3)];
+    const Eigen::Vector3d e = (shape.joints_mm[at(n - 3)] - shape.joints_mm[at(n - 2)]).normalized();
+    const Eigen::Vector3d m1 = math::normal_part(math::parallel_transport(next.col(0), next.col(2), e), e);
+    next.col(0) = m1;
+    next.col(1) = e.cross(m1);
+    next.col(2) = e;
+    shape.twist_rad[at(n - 2)] = rod::twist_between(sheath, next, twist);
+  }
+  prepare_material(problem_.feed.inserted_mm);
+}
+
+/// Joints enter or leave so that the rod at the sheath keeps a sound length before and after the coming motion.
+void Simulation::Impl::adapt_sheath(double inserted_mm) {
+  const double least = std::min(inserted_mm, problem_.feed.inserted_mm);
+  while (problem_.shape.rods() > 2 && least - grid_[at(problem_.shape.rods() - 1)] < kLeave_mm) remove_joint();
+  while (problem_.shape.rods() + 1 < static_cast<int>(grid_.size()) &&
+         least - grid_[at(problem_.shape.rods())] >= kEntry_mm) {
+    insert_joint();
+  }
+}
+
+const StepReport& Simulation::Impl::step(const Command& command) {
+  report_ = StepReport{.events = std::move(report_.events)};
+  report_.events.clear();
+  report_.converged = true;
+  const bool finite = std::isfinite(command.advance_mm) && std::isfinite(command.torque_rad);
+  const double pieces = std::max({1.0, std::ceil(std::abs(command.advance_mm) / spec_.max_advance_mm - 1e-9),
+                                  std::ceil(std::abs(command.torque_rad) * 180.0 / M_PI / spec_.max_torque_deg - 1e-9)});
+  constexpr double kMaxPieces = 1e6;
+  if (!finite || pieces > kMaxPieces) {
+    report_.converged = false;
+    report_.solve.termination = solve::Termination::left_domain;
+    report_.events.push_back({EventKind::not_converged, 0.0, access_.position_mm});
+    measure();
+    return report_;
+  }
+  const double before_mm = state_.inserted_mm;
+  const Command piece{command.advance_mm / pieces, command.torque_rad / pieces};
+  for (int k = 0; k < static_cast<int>(pieces) && report_.converged; ++k) report_.converged = advance(piece, 0);
+  ++state_.steps;
+  report_.hand_slip_mm = command.advance_mm - (state_.inserted_mm - before_mm);
+  if (!report_.converged) report_.events.push_back({EventKind::not_converged, report_.solve.force_residual_n, access_.position_mm});
+  measure();
+  return report_;
+}
+
+/// One sub-step; halved and repeated when it fails. Afterwards the state is the last converged one.
+bool Simulation::Impl::advance(const Command& command, int split) {
+  if (advance_once(command)) {
+    finish(command);
+    return true;
+  }
+  restore(state_);
+  if (split == spec_.solver.max_splits) return false;
+  ++report_.splits;
+  const Command half{0.5 * command.advance_mm, 0.5 * command.torque_rad};
+  return advance(half, split + 1) && advance(half, split + 1);
+}
+
+bool Simulation::Impl::advance_once(const Command& command) {
+  Feed& feed = problem_.feed;
+  // The end of the wire stays outside: there is nothing left to push.
+  const double inserted = std::min(feed.inserted_mm + command.advance_mm, line_.length_mm() - spec_.solver.rod_length_mm);
+  const double advance_mm = inserted - feed.inserted_mm;
+  if (in_sheath()) {
+    if (inserted < first_inside_mm()) {
+      feed.inserted_mm = inserted;
+      return true;
+    }
+    enter(inserted, hand_turn_rad_ + command.torque_rad);
+    problem_.contact.clear();
+    problem_.contact.place(line_, problem_.material, problem_.shape, problem_.shape.rods() - 1, *field_, contact_spec_,
+                           friction_);
+  } else {
+    if (inserted < grid_[1] + kLeave_mm) {  // back into the sheath
+      problem_.shape.joints_mm.clear();
+      problem_.shape.frames.clear();
+      problem_.shape.spin_rad.clear();
+      problem_.shape.twist_rad.clear();
+      problem_.contact.clear();
+      friction_.clear();
+      feed.inserted_mm = inserted;
+      feed.stretch_mm = feed.twist_rad = 0.0;
+      return true;
+    }
+    adapt_sheath(inserted);
+    problem_.contact.place(line_, problem_.material, problem_.shape, problem_.shape.rods() - 1, *field_, contact_spec_,
+                           friction_);
+    predict(problem_.material, access_.position_mm, access_.direction, inserted, advance_mm, command.torque_rad,
+            problem_.shape, trace_);
+    feed.inserted_mm = inserted;
+    problem_.material.arc_mm.back() = 2.0 * inserted - grid_[at(problem_.shape.rods() - 1)];
+    rod::fill_material_from(line_, problem_.shape.rods() - 1, gravity_m_per_s2_, spec_.blood_density_g_per_mm3,
+                            problem_.material);
+    problem_.fit_sheath_rod(inserted);
+  }
+  const int n = problem_.shape.rods();
+  problem_.release_all();
+  problem_.held[at(4 * (n - 1) + 1)] = 1;
+  problem_.held[at(4 * (n - 1) + 2)] = 1;
+  predicted_.assign(problem_.shape.joints_mm.begin(), problem_.shape.joints_mm.end());
+  return settle();
+}
+
+/// Minimises; detects anew where the solution left the region of the walls that one detection had seen.
+bool Simulation::Impl::settle() {
+  for (int round = 0; round < kMaxDetections; ++round) {
+    problem_.contact.detect(problem_.shape, *field_, contact_spec_);
+    ++report_.detections;
+    report_.solve = newton_.minimise(problem_, newton_spec_);
+    report_.newton_iterations += report_.solve.iterations;
+    if (report_.solve.converged()) {
+      ++report_.verifications;
+      if (problem_.contact.verify(problem_.shape, *field_).gap_error_mm <= contact_spec_.gap_error_mm) return true;
+    } else if (problem_.inside_region()) {
+      return false;
+    }
+  }
+  report_.solve.termination = solve::Termination::left_domain;
+  return false;
+}
+
+void Simulation::Impl::finish(const Command& command) {
+  Feed& feed = problem_.feed;
+  if (in_sheath()) {
+    hand_turn_rad_ += command.torque_rad;
+  } else {
+    const rod::ChainShape& shape = problem_.shape;
+    for (std::size_t j = 0; j < shape.joints_mm.size(); ++j) {
+      const double moved = (shape.joints_mm[j] - predicted_[j]).norm();
+      if (moved < kSnap_mm) continue;
+      report_.snapped = true;
+      report_.events.push_back({EventKind::snap, moved, shape.joints_mm[j]});
+      break;
+    }
+    problem_.contact.remember(shape, friction_);
+    feed.stretch_mm = contact::friction_anchor(feed.push, {feed.stretch_mm, 0.0})[0];
+    feed.twist_rad = contact::friction_anchor(feed.torque, {feed.twist_rad, 0.0})[0];
+    hand_turn_rad_ = shape.spin_rad.back();
+  }
+  save(state_);
+}
+
+/// Forces, extremes and events of the state that the step ended with.
+void Simulation::Impl::measure() {
+  report_.inserted_length_mm = state_.inserted_mm;
+  report_.rods = problem_.shape.rods();
+  report_.contact_samples = static_cast<int>(problem_.contact.samples().size());
+  if (in_sheath()) return;
+  report_.push_force_n = problem_.push_force_n();
+  report_.torque_n_mm = problem_.hand_torque_n_mm();
+  const WallForces wall = measure_wall(problem_);
+  report_.max_wall_deflection_mm = wall.max_deflection_mm;
+  report_.max_force_5mm_n = wall.max_window_n;
+  report_.tip_force_n = wall.tip_window_n;
+  const Eigen::Vector3d& tip = problem_.shape.joints_mm[0];
+  if (wall.tip_window_n >= spec_.perforation_force_n) {
+    report_.events.push_back({EventKind::perforation, wall.tip_window_n, tip});
+  }
+  if (wall.narrowest_clearance_mm < 0.0) {
+    report_.events.push_back({EventKind::too_narrow, wall.narrowest_clearance_mm, wall.narrowest_at_mm});
+  }
+  const KinkReserve kink = measure_kink(problem_);
+  if (kink.ratio > 1.0) report_.events.push_back({EventKind::kink, kink.curvature_per_mm, kink.position_mm});
+  const int opening = field_->exit_at(tip);
+  if (opening > 0) report_.events.push_back({EventKind::exit, static_cast<double>(opening), tip});
+  if (std::abs(report_.hand_slip_mm) > 1e-2) {
+    report_.events.push_back({EventKind::hand_slip, report_.hand_slip_mm, access_.position_mm});
+  }
+}
+
+void Simulation::Impl::snapshot(Snapshot& out) const {
+  fill_snapshot(problem_, line_, out);
+  out.inserted_length_mm = state_.inserted_mm;
+  out.push_force_n = in_sheath() ? 0.0 : problem_.push_force_n();
+  out.torque_n_mm = in_sheath() ? 0.0 : problem_.hand_torque_n_mm();
+}
+
+Simulation::Simulation(std::shared_ptr<const vessel::Field> field, rod::Instrument instrument, Access access,
+                       SimulationSpec spec)
+    : impl_(std::make_unique<Impl>(std::move(field), std::move(instrument), access, spec)) {}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+const StepReport& Simulation::step(const Command& command) { return impl_->step(command); }
+const State& Simulation::state() const { return impl_->state_; }
+void Simulation::restore(const State& state) { impl_->restore(state); }
+std::uint64_t Simulation::state_hash() const { return impl_->state_.hash(); }
+void Simulation::snapshot(Snapshot& out) const { impl_->snapshot(out); }
+
+}  // namespace endowire::sim
