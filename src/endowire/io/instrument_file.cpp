@@ -140,6 +140,7 @@ InstrumentFile parse_instrument(const std::string& text, const std::string& name
     file.instrument.sections.push_back(read_section(section, reader));
   if (file.instrument.sections.empty())
     root.refuse_missing("section", "at least one [[section]], from the tip to the hand");
+  file.instrument.validate(name);
   return file;
 }
 

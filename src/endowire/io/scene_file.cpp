@@ -106,6 +106,7 @@ rod::Instrument read_instrument(const TomlTable& root, const fs::path& folder,
     const double friction = table.number("friction", between(0.0, 2.0));
     for (rod::Section& section : instrument.sections) section.friction = friction;
   }
+  instrument.validate(table.file() + ": " + root.path_of("instrument[0]"));
   return instrument;
 }
 
@@ -181,11 +182,7 @@ double steps_of(const sim::Motion& motion, const SceneFile& scene) {
 void read_motions(const TomlTable& root, SceneFile& scene) {
   const std::vector<TomlTable> tables = root.tables("motion", {"duration_s", "hands"});
   if (tables.empty()) root.refuse_missing("motion", "at least one [[motion]]");
-  const double length_mm = [&] {
-    double sum = 0.0;
-    for (const rod::Section& section : scene.instrument.sections) sum += section.length_mm;
-    return sum;
-  }();
+  const double length_mm = scene.instrument.length_mm();
   double advanced_mm = 0.0;
   double steps = 0.0;
   for (const TomlTable& table : tables) {

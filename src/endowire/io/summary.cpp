@@ -1,0 +1,169 @@
+#include "endowire/io/summary.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "endowire/io/file.hpp"
+#include "endowire/io/version.hpp"
+
+namespace endowire::io {
+
+using json = nlohmann::ordered_json;
+
+namespace {
+
+json finite(double value) {
+  return std::isfinite(value) ? json(value) : json(nullptr);
+}
+
+json vector_json(const Eigen::Vector3d& value) {
+  return json::array({finite(value.x()), finite(value.y()), finite(value.z())});
+}
+
+json spread(const std::vector<double>& values) {
+  return {{"steps", values.size()},
+          {"p50", finite(percentile(values, 0.5))},
+          {"p95", finite(percentile(values, 0.95))},
+          {"p99", finite(percentile(values, 0.99))},
+          {"p999", finite(percentile(values, 0.999))},
+          {"max", finite(percentile(values, 1.0))}};
+}
+
+double mean(const std::vector<double>& values) {
+  return values.empty()
+             ? 0.0
+             : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double per_step(std::uint64_t count, std::uint64_t steps) {
+  return steps == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(steps);
+}
+
+json events_json(const RunStatistics& run) {
+  json events = json::array();
+  for (const TimedEvent& event : run.events)
+    events.push_back({{"step", event.step},
+                      {"time_s", finite(event.time_s)},
+                      {"kind", name_of(event.event.kind)},
+                      {"value", finite(event.event.value)},
+                      {"position_mm", vector_json(event.event.position_mm)}});
+  return events;
+}
+
+json failure_json(const RunStatistics& run) {
+  if (run.failed.empty()) return nullptr;
+  const FailedStep& first = run.failed.front();
+  return {{"step", first.step},
+          {"time_s", finite(first.time_s)},
+          {"inserted_length_mm", finite(first.inserted_length_mm)},
+          {"termination", name_of(first.solve.termination)},
+          {"correction_mm", finite(first.solve.correction_mm)},
+          {"force_residual_n", finite(first.solve.force_residual_n)},
+          {"moment_residual_n_mm", finite(first.solve.moment_residual_n_mm)}};
+}
+
+}  // namespace
+
+json vessel_json(const VesselMesh& mesh, const vessel::MeshField& field) {
+  const vessel::MeshReport& report = mesh.repaired.report;
+  const vessel::FieldFacts& facts = field.facts();
+  json openings = json::array();
+  for (const vessel::Opening& opening : mesh.repaired.openings)
+    openings.push_back({{"number", opening.number},
+                        {"centre_mm", vector_json(opening.centre_mm)},
+                        {"direction", vector_json(opening.direction)},
+                        {"diameter_mm", finite(opening.diameter_mm)}});
+  json holes = json::array();
+  for (const vessel::PinHole& hole : mesh.repaired.pin_holes)
+    holes.push_back({{"centre_mm", vector_json(hole.centre_mm)}, {"diameter_mm", finite(hole.diameter_mm)}});
+  const auto& diameters = facts.lumen_diameter_percentiles_mm;
+  return {{"source", mesh.source},
+          {"content_hash", hash_text(mesh.content_hash)},
+          {"unit", vessel::name_of(mesh.unit)},
+          {"triangles", report.triangles},
+          {"vertices", report.vertices},
+          {"components", report.components},
+          {"bounds_mm",
+           {{"low", vector_json(report.bounds_mm.min())}, {"high", vector_json(report.bounds_mm.max())}}},
+          {"area_mm2", finite(report.area_mm2)},
+          {"volume_mm3", finite(report.volume_mm3)},
+          {"wall_with_thickness", report.wall_with_thickness},
+          {"openings", openings},
+          {"pin_holes", holes},
+          {"lumen_diameter_mm",
+           {{"p5", finite(diameters[0])},
+            {"p25", finite(diameters[1])},
+            {"p50", finite(diameters[2])},
+            {"p75", finite(diameters[3])},
+            {"p95", finite(diameters[4])}}},
+          {"repair",
+           {{"triangles_in_file", report.triangles_in_file},
+            {"merged_points", report.merged_points},
+            {"degenerate_triangles_dropped", report.degenerate_triangles},
+            {"duplicate_triangles_dropped", report.duplicate_triangles},
+            {"sliver_triangles_kept", report.sliver_triangles},
+            {"flipped_triangles", report.flipped_triangles},
+            {"inward_in_file", report.inward_in_file},
+            {"non_manifold_edges", report.non_manifold_edges}}},
+          {"field",
+           {{"bytes", facts.bytes},
+            {"bricks", facts.bricks},
+            {"finest_spacing_mm", finite(facts.finest_spacing_mm)},
+            {"error_max_mm", finite(facts.error_max_mm)},
+            {"error_p99_mm", finite(facts.error_p99_mm)},
+            {"error_p50_mm", finite(facts.error_p50_mm)},
+            {"refinement_complete", facts.refinement_complete}}}};
+}
+
+std::string summary_json(const SceneFile& scene, const VesselMesh& mesh, const vessel::MeshField& field,
+                         const RunStatistics& run, const sim::Snapshot& last, std::uint64_t state_hash,
+                         const CrossingVerdict& verdict, const MachineFacts& machine) {
+  const Eigen::Vector3d tip =
+      last.points.empty() ? scene.access.position_mm : Eigen::Vector3d(last.points.front().position_mm);
+  json summary = {{"schema", 1},
+                  {"version", version},
+                  {"scene", scene.name},
+                  {"scene_hash", hash_text(content_hash(scene.text))},
+                  {"vessel", vessel_json(mesh, field)},
+                  {"steps", run.steps},
+                  {"converged_steps", run.converged_steps},
+                  {"split_steps", run.split_steps},
+                  {"detections_per_step", finite(per_step(run.detections, run.steps))},
+                  {"verifications_per_step", finite(per_step(run.verifications, run.steps))},
+                  {"newton_iterations",
+                   {{"mean", finite(mean(run.newton_iterations))},
+                    {"p99", finite(percentile(run.newton_iterations, 0.99))},
+                    {"max", finite(percentile(run.newton_iterations, 1.0))}}},
+                  {"rods", {{"min", run.least_rods}, {"max", run.most_rods}, {"final", run.last_rods}}},
+                  {"contact_samples_max", run.most_contact_samples},
+                  {"max_wall_deflection_mm", finite(percentile(run.wall_deflection_mm, 1.0))},
+                  {"p99_wall_deflection_mm", finite(percentile(run.wall_deflection_mm, 0.99))},
+                  {"wall_crossings", verdict.crossings ? json(*verdict.crossings) : json(nullptr)},
+                  {"max_force_5mm_n", finite(run.max_force_5mm_n)},
+                  {"max_tip_force_n", finite(run.max_tip_force_n)},
+                  {"instruments",
+                   {{{"model", scene.instrument.model},
+                     {"inserted_length_mm", finite(last.inserted_length_mm)},
+                     {"tip_position_mm", vector_json(tip)},
+                     {"max_push_force_n", finite(run.max_push_force_n)},
+                     {"min_push_force_n", finite(run.min_push_force_n)},
+                     {"max_torque_n_mm", finite(run.max_torque_n_mm)},
+                     {"hand_slip_mm", finite(run.hand_slip_mm)}}}},
+                  {"events", events_json(run)},
+                  {"first_failure", failure_json(run)},
+                  {"state_hash", hash_text(state_hash)},
+                  {"machine",
+                   {{"step_time_us", spread(run.step_us)},
+                    {"step_time_snap_us", spread(run.snap_step_us)},
+                    {"peak_memory_mb", finite(machine.peak_memory_mb)},
+                    {"preparation_s", finite(machine.preparation_s)},
+                    {"field_from_cache", machine.field_from_cache},
+                    {"isa", machine.isa}}}};
+  if (!verdict.crossings) summary["wall_crossings_note"] = verdict.note;
+  return summary.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace endowire::io

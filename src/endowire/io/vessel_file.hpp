@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "endowire/vessel/mesh_field.hpp"
+#include "endowire/vessel/repair.hpp"
+
+namespace endowire::io {
+
+/// A vessel as read and understood, not yet prepared.
+struct VesselMesh {
+  std::string source;              ///< path as given, or `generate:name`
+  std::uint64_t content_hash = 0;  ///< of the file's bytes; of the triangles when generated
+  vessel::LengthUnit unit = vessel::LengthUnit::millimetre;
+  vessel::RepairedMesh repaired;
+};
+
+/// Reads a mesh file (STL) of at most 2 GiB.
+/// @throws base::InputError one line that names the file and what is wrong with it.
+[[nodiscard]] VesselMesh read_vessel_file(const std::filesystem::path& path, vessel::LengthUnit unit);
+
+/// A vessel built in code: `tube_tree`.
+/// @throws base::InputError for any other name.
+[[nodiscard]] VesselMesh generate_vessel(const std::string& name);
+
+/// Where a prepared field came from.
+enum class FieldOrigin {
+  prepared,             ///< prepared now, and kept in the cache
+  prepared_not_cached,  ///< prepared now; the cache could not be written to, or there is none
+  cached,               ///< read from the cache
+};
+
+struct PreparedField {
+  std::shared_ptr<const vessel::MeshField> field;
+  FieldOrigin origin = FieldOrigin::prepared_not_cached;
+};
+
+/// The distance field of a vessel, from the cache when it holds one of the same mesh and parameters. A
+/// damaged or foreign file there is prepared anew and replaced; a cache that cannot be written to costs time,
+/// never the run.
+/// @param cache_folder  created when missing; empty: no cache
+[[nodiscard]] PreparedField prepare_field(const VesselMesh& mesh, const std::filesystem::path& cache_folder,
+                                          const vessel::FieldParameters& parameters = {});
+
+/// Name of a prepared field within the cache.
+[[nodiscard]] std::string field_cache_name(std::uint64_t key);
+
+/// `$XDG_CACHE_HOME/endowire`, else `$HOME/.cache/endowire`; empty when neither is set.
+[[nodiscard]] std::filesystem::path default_cache_folder();
+
+}  // namespace endowire::io

@@ -1,0 +1,246 @@
+#include "endowire/io/scene_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "endowire/base/error.hpp"
+#include "temporary_folder.hpp"
+
+namespace endowire::io {
+namespace {
+
+using test::message_of;
+using test::TemporaryFolder;
+
+const std::vector<std::filesystem::path> library{ENDOWIRE_SOURCE_DIR "/instruments"};
+
+const std::string good = R"(schema = 1
+[vessel]
+generate = "tube_tree"
+[access]
+position_mm = [1.0, 2.0, 3.0]
+direction = [0.0, 0.0, 2.0]
+[[instrument]]
+model = "hydrophilic_035_straight"
+[simulation]
+max_advance_mm = 2.0
+max_torque_deg = 5.0
+[[motion]]
+duration_s = 10.0
+hands = [{ instrument = 1, advance_mm = 100.0, torque_deg = 0.0 }]
+[[motion]]
+duration_s = 4.0
+hands = [{ advance_mm = -10.0, torque_deg = 90.0 }]
+)";
+
+std::string replaced(const std::string& from, const std::string& to) {
+  std::string text = good;
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(SceneFile, ReadsEveryPart) {
+  const SceneFile scene = parse_scene(good, "s.toml", library);
+  EXPECT_EQ(scene.vessel.generate, "tube_tree");
+  EXPECT_EQ(scene.access.position_mm, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(scene.access.direction, Eigen::Vector3d(0, 0, 1));
+  EXPECT_EQ(scene.instrument.model, "hydrophilic_035_straight");
+  EXPECT_EQ(scene.simulation.max_advance_mm, 2.0);
+  ASSERT_EQ(scene.motions.size(), 2U);
+  EXPECT_EQ(scene.motions[1].hands[0].torque_deg, 90.0);
+}
+
+TEST(SceneFile, MotionsBecomeEqualStepsThatAddUp) {
+  const std::vector<TimedCommand> commands = commands_of(parse_scene(good, "s.toml", library));
+  ASSERT_EQ(commands.size(), 50U + 18U);  // 100 mm / 2 mm; 90 degrees / 5 degrees, more than 10 mm / 2 mm
+  double advance = 0.0;
+  double torque = 0.0;
+  for (const TimedCommand& timed : commands) {
+    advance += timed.command.advance_mm;
+    torque += timed.command.torque_rad;
+  }
+  EXPECT_NEAR(advance, 90.0, 1e-9);
+  EXPECT_NEAR(torque, std::numbers::pi / 2, 1e-12);
+  EXPECT_DOUBLE_EQ(commands[49].time_s, 10.0);
+  EXPECT_DOUBLE_EQ(commands.back().time_s, 14.0);
+}
+
+TEST(SceneFile, AFixedRateSetsTheStepsInsteadOfTheirLength) {
+  const SceneFile scene = parse_scene(replaced("max_advance_mm = 2.0", "step_s = 0.5"), "s.toml", library);
+  EXPECT_EQ(commands_of(scene).size(), 20U + 8U);
+}
+
+TEST(SceneFile, LengthThatTheStepDividesExactlyTakesNoExtraStep) {
+  const std::string text = replaced("max_advance_mm = 2.0", "max_advance_mm = 0.1");
+  EXPECT_EQ(commands_of(parse_scene(text, "s.toml", library)).size(), 1000U + 100U);
+}
+
+TEST(SceneFile, OverridesReachEverySection) {
+  const std::string text = replaced("[simulation]", "friction = 0.3\ngrip_force_n = 5.0\n[simulation]");
+  const rod::Instrument instrument = parse_scene(text, "s.toml", library).instrument;
+  EXPECT_EQ(instrument.grip_force_n, 5.0);
+  for (const rod::Section& section : instrument.sections) EXPECT_EQ(section.friction, 0.3);
+}
+
+TEST(SceneFile, VesselAndInstrumentPathsAreRelativeToTheScene) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "vessels");
+  test::write_text(folder / "vessels/v.stl", "x");
+  std::filesystem::copy_file(library[0] / "hydrophilic_035_angled.toml", folder / "own.toml");
+  std::string text = replaced("generate = \"tube_tree\"", "file = \"vessels/v.stl\"\nunit = \"cm\"");
+  text.replace(text.find("hydrophilic_035_straight"), 24, "own.toml");
+  test::write_text(folder / "s.toml", text);
+  const SceneFile scene = read_scene_file(folder / "s.toml", {});
+  EXPECT_EQ(scene.vessel.file, folder / "vessels/v.stl");
+  EXPECT_EQ(scene.vessel.unit, vessel::LengthUnit::centimetre);
+  EXPECT_EQ(scene.instrument.model, "hydrophilic_035_angled");
+}
+
+struct BadScene {
+  const char* from;
+  const char* to;
+  const char* message;
+};
+
+class BadScenes : public ::testing::TestWithParam<BadScene> {};
+
+TEST_P(BadScenes, AreRefusedInOneLineThatNamesFieldValueAndRange) {
+  const std::string text = replaced(GetParam().from, GetParam().to);
+  const std::string message =
+      message_of<base::InputError>([&] { static_cast<void>(parse_scene(text, "s.toml", library)); });
+  EXPECT_EQ(message, GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, BadScenes,
+    ::testing::Values(
+        BadScene{"schema = 1", "schema = 2", "s.toml: schema is 2; must be 1"},
+        BadScene{"schema = 1\n", "", "s.toml: schema is missing; must be 1"},
+        BadScene{"schema = 1", "schema = 1.0", "s.toml: schema is 1; must be 1"},
+        BadScene{"[vessel]", "[vessels]",
+                 "s.toml: vessels is unknown; known here: schema, title, vessel, access, environment, wall, "
+                 "solver, "
+                 "instrument, simulation, motion"},
+        BadScene{"generate = ", "genrate = ",
+                 "s.toml: vessel.genrate is unknown; known here: file, generate, unit"},
+        BadScene{"\"tube_tree\"", "\"tube\"", "s.toml: vessel.generate is \"tube\"; must be \"tube_tree\""},
+        BadScene{"\"tube_tree\"", "7", "s.toml: vessel.generate is a number; must be \"tube_tree\""},
+        BadScene{"\"tube_tree\"", "\"tube_tree\"\nunit = \"inch\"",
+                 "s.toml: vessel.unit is \"inch\"; must be \"mm\", \"cm\" or \"m\""},
+        BadScene{"generate = \"tube_tree\"", "",
+                 "s.toml: vessel is given neither file nor generate; must be given one of the two"},
+        BadScene{"generate = \"tube_tree\"", "generate = \"tube_tree\"\nfile = \"v.stl\"",
+                 "s.toml: vessel is given both file and generate; must be given one of the two"},
+        BadScene{"generate = \"tube_tree\"", "file = \"none.stl\"",
+                 "s.toml: vessel.file is \"none.stl\"; must be an existing file (none.stl is none)"},
+        BadScene{"position_mm = [1.0, 2.0, 3.0]", "position_mm = [1.0, 2.0]",
+                 "s.toml: access.position_mm is a list of 2; must be a list of three finite numbers"},
+        BadScene{"position_mm = [1.0, 2.0, 3.0]", "position_mm = [1.0, nan, 3.0]",
+                 "s.toml: access.position_mm[1] is nan; must be a finite number"},
+        BadScene{"position_mm = [1.0, 2.0, 3.0]", "position_mm = [1.0, \"a\", 3.0]",
+                 "s.toml: access.position_mm[1] is a text; must be a finite number"},
+        BadScene{"position_mm = [1.0, 2.0, 3.0]\n", "",
+                 "s.toml: access.position_mm is missing; must be a list of three finite numbers"},
+        BadScene{"direction = [0.0, 0.0, 2.0]", "direction = [0, 0, 0]",
+                 "s.toml: access.direction is [0, 0, 0]; must be a vector of some length, into the vessel"},
+        BadScene{"direction = [0.0, 0.0, 2.0]", "direction = [0.0, 0.0, 2.0]\nopening = 1",
+                 "s.toml: access is given both an opening and a position; must be given one of the two"},
+        BadScene{"position_mm = [1.0, 2.0, 3.0]\ndirection = [0.0, 0.0, 2.0]", "opening = 0",
+                 "s.toml: access.opening is 0; must be an integer between 1 and 10000"},
+        BadScene{"hydrophilic_035_straight", "no_such_wire",
+                 "s.toml: instrument[0].model is \"no_such_wire\"; must be one of hydrophilic_035_angled, "
+                 "hydrophilic_035_straight, or the path of a .toml file"},
+        BadScene{"hydrophilic_035_straight", "../instruments/hydrophilic_035_straight",
+                 "s.toml: instrument[0].model is \"../instruments/hydrophilic_035_straight\"; must be one of "
+                 "hydrophilic_035_angled, hydrophilic_035_straight, or the path of a .toml file"},
+        BadScene{
+            "hydrophilic_035_straight", "none.toml",
+            "s.toml: instrument[0].model is \"none.toml\"; must be an existing file (none.toml is none)"},
+        BadScene{"[simulation]", "[[instrument]]\nmodel = \"hydrophilic_035_angled\"\n[simulation]",
+                 "s.toml: instrument is a list of 2; must be one: this version simulates one instrument"},
+        BadScene{"[simulation]", "friction = -0.1\n[simulation]",
+                 "s.toml: instrument[0].friction is -0.1; must be between 0 and 2"},
+        BadScene{"[simulation]", "grip_force_n = 0\n[simulation]",
+                 "s.toml: instrument[0].grip_force_n is 0; must be > 0"},
+        BadScene{"max_advance_mm = 2.0", "max_advance_mm = 11",
+                 "s.toml: simulation.max_advance_mm is 11; must be between 0.001 and 10"},
+        BadScene{"max_advance_mm = 2.0", "step_s = -1",
+                 "s.toml: simulation.step_s is -1; must be between 0.0001 and 3600"},
+        BadScene{"max_torque_deg = 5.0", "max_torque_deg = inf",
+                 "s.toml: simulation.max_torque_deg is inf; must be between 0.01 and 90"},
+        BadScene{"[simulation]", "[wall]\nmodulus_mpa = 0.01\n[simulation]",
+                 "s.toml: wall.modulus_mpa is 0.01; must be between 0.1 and 1000"},
+        BadScene{"[simulation]", "[wall]\nmax_deflection_mm = 0.5\n[simulation]",
+                 "s.toml: wall.max_deflection_mm is 0.5; must be between 0.01 and 0.18"},
+        BadScene{"[simulation]", "[solver]\nrod_length_mm = 0.1\n[simulation]",
+                 "s.toml: solver.rod_length_mm is 0.1; must be between 0.2 and 20"},
+        BadScene{"[simulation]", "[solver]\nmax_iterations = 2.5\n[simulation]",
+                 "s.toml: solver.max_iterations is 2.5; must be an integer between 1 and 10000"},
+        BadScene{"[simulation]", "[environment]\nblood_density_g_per_mm3 = 1.06\n[simulation]",
+                 "s.toml: environment.blood_density_g_per_mm3 is 1.06; must be between 0 and 0.002"},
+        BadScene{"duration_s = 4.0", "duration_s = -1",
+                 "s.toml: motion[1].duration_s is -1; must be > 0 and <= 1000000"},
+        BadScene{"duration_s = 4.0", "duration_s = true",
+                 "s.toml: motion[1].duration_s is a boolean; must be a number, > 0 and <= 1000000"},
+        BadScene{"instrument = 1,", "instrument = 2,",
+                 "s.toml: motion[0].hands[0].instrument is 2; must be 1"},
+        BadScene{"advance_mm = 100.0", "advance_mm = nan",
+                 "s.toml: motion[0].hands[0].advance_mm is nan; must be between -10000 and 10000"},
+        BadScene{"advance_mm = 100.0", "advance_mm = 1900",
+                 "s.toml: motion[0].hands[0].advance_mm is 1900; must be <= 1800, what is left of the 1800 "
+                 "mm of the wire"},
+        BadScene{"advance_mm = 100.0", "adance_mm = 100.0",
+                 "s.toml: motion[0].hands[0].adance_mm is unknown; known here: instrument, advance_mm, "
+                 "torque_deg"},
+        BadScene{"hands = [{ advance_mm = -10.0, torque_deg = 90.0 }]", "hands = [{}, {}]",
+                 "s.toml: motion[1].hands is a list of 2; must be at most one: there is one instrument"},
+        BadScene{"hands = [{ advance_mm = -10.0, torque_deg = 90.0 }]", "hands = [3]",
+                 "s.toml: motion[1].hands[0] is a number; must be a table"}));
+
+TEST(SceneFile, SyntaxErrorsNameLineAndColumn) {
+  const std::string message = message_of<base::InputError>(
+      [] { static_cast<void>(parse_scene("schema = 1\n[vessel\n", "s.toml", library)); });
+  EXPECT_EQ(message.rfind("s.toml: line 2, column ", 0), 0U) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos);
+}
+
+TEST(SceneFile, AScriptOfTooManyStepsIsRefusedBeforeMemoryIs) {
+  std::string text = replaced("duration_s = 10.0", "duration_s = 1000000.0");
+  text.replace(text.find("max_advance_mm = 2.0"), 20, "step_s = 0.001");
+  EXPECT_EQ(
+      message_of<base::InputError>([&] { static_cast<void>(parse_scene(text, "s.toml", library)); }),
+      "s.toml: motion[0].duration_s is 1000000, which brings the script to 1000000000 steps; must be short "
+      "enough for 1000000 steps in all");
+}
+
+TEST(SceneFile, MissingEmptyAndFolderAreNamed) {
+  const TemporaryFolder folder;
+  const auto message = [&](const std::string& name) {
+    return message_of<base::InputError>([&] { static_cast<void>(read_scene_file(folder / name, library)); });
+  };
+  EXPECT_EQ(message("none.toml"), (folder / "none.toml").string() + ": no such file");
+  test::write_text(folder / "empty.toml", "");
+  EXPECT_EQ(message("empty.toml"), (folder / "empty.toml").string() + ": is empty");
+  std::filesystem::create_directory(folder / "f.toml");
+  EXPECT_EQ(message("f.toml"), (folder / "f.toml").string() + ": is a folder; must be a file");
+}
+
+class ShippedScenes : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(ShippedScenes, AreReadable) {
+  const std::filesystem::path path = std::filesystem::path(ENDOWIRE_SOURCE_DIR "/scenes") / GetParam();
+  if (std::string(GetParam()) == "femoral_entry.toml" &&
+      !std::filesystem::exists(ENDOWIRE_SHARED_DIR "/vessels/femoral_to_neuro/lumen_mm.stl"))
+    GTEST_SKIP() << "needs ../shared/vessels/femoral_to_neuro";
+  const SceneFile scene = read_scene_file(path, library);
+  double advance = 0.0;
+  for (const TimedCommand& timed : commands_of(scene)) advance += timed.command.advance_mm;
+  EXPECT_NEAR(advance, 450.0, 1.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedScenes, ::testing::Values("femoral_entry.toml", "generated_entry.toml"));
+
+}  // namespace
+}  // namespace endowire::io
