@@ -104,10 +104,12 @@ std::int32_t TriangleBvh::build(std::int32_t begin, std::int32_t end, const std:
   return node;
 }
 
-NearestPoint TriangleBvh::nearest(const Vector3d& p, double within_mm) const {
+NearestPoint TriangleBvh::nearest(const Vector3d& p, double within_mm, double enough_mm) const {
   NearestPoint best;
   if (nodes_.empty()) return best;
   double best2 = within_mm * within_mm;
+  const double enough2 = enough_mm * enough_mm;
+  bool enough = false;
   struct Entry {
     std::int32_t node;
     double distance2;
@@ -115,7 +117,7 @@ NearestPoint TriangleBvh::nearest(const Vector3d& p, double within_mm) const {
   std::array<Entry, stack_size> stack;
   std::size_t top = 0;
   stack[top++] = {0, box_distance2(p, nodes_[0].low, nodes_[0].high)};
-  while (top > 0) {
+  while (top > 0 && !enough) {
     const Entry entry = stack[--top];
     if (entry.distance2 > best2) continue;
     const Node& node = nodes_[static_cast<std::size_t>(entry.node)];
@@ -147,6 +149,7 @@ NearestPoint TriangleBvh::nearest(const Vector3d& p, double within_mm) const {
         best.feature = feature;
       }
     }
+    enough = best.triangle >= 0 && best2 < enough2;
   }
   if (best.triangle >= 0) best.distance_mm = std::sqrt(best2);
   return best;

@@ -42,8 +42,11 @@ class TriangleBvh {
   explicit TriangleBvh(const TriangleMesh& mesh);
 
   /// Nearest point of the surface no further than `within_mm`; of equals the triangle with the lowest index.
+  /// Whoever only asks whether something is nearer than `enough_mm` gets any such point as soon as one is
+  /// found.
   [[nodiscard]] NearestPoint nearest(const Eigen::Vector3d& point_mm,
-                                     double within_mm = std::numeric_limits<double>::infinity()) const;
+                                     double within_mm = std::numeric_limits<double>::infinity(),
+                                     double enough_mm = 0.0) const;
 
   /// All triangles no further than `radius_mm` from `centre_mm`, nearest first.
   void collect(const Eigen::Vector3d& centre_mm, double radius_mm, std::vector<Candidate>& out) const;

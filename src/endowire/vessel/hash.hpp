@@ -1,9 +1,9 @@
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include "endowire/base/bits.hpp"
 
 namespace endowire::vessel {
 
@@ -14,7 +14,7 @@ class ContentHash {
     state_ = (state_ ^ word) * 1099511628211ULL;
     state_ ^= state_ >> 29;
   }
-  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+  void add(double value) { add(base::bits_as<std::uint64_t>(value)); }
   void add_bytes(const std::byte* data, std::size_t size) {
     add(static_cast<std::uint64_t>(size));
     std::size_t i = 0;

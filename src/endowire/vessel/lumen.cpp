@@ -22,10 +22,10 @@ double radius_before(const ExactSurface& surface, std::size_t t) {
   const TriangleBvh::Hit hit = surface.bvh().cast(centre, -normal, 1e-6, unbounded);
   if (hit.triangle < 0) return 0.0;
   double radius = 0.0;
-  for (double part : {0.25, 0.375, 0.5, 0.625}) {
+  for (double part : {0.5, 0.375, 0.625, 0.25}) {
     const double along = part * hit.distance_mm;
-    radius =
-        std::max(radius, surface.bvh().nearest(centre - along * normal, along * (1.0 + 1e-9)).distance_mm);
+    const NearestPoint ball = surface.bvh().nearest(centre - along * normal, along * (1.0 + 1e-9), radius);
+    if (ball.triangle >= 0) radius = std::max(radius, ball.distance_mm);
   }
   return std::isfinite(radius) ? radius : 0.0;
 }

@@ -19,8 +19,8 @@ struct FieldParameters {
   double band_outside_mm =
       2.5;               ///< the field is exact this deep into the wall; at least the deepest wire [mm]
   double near_mm = 1.0;  ///< the wall's neighbourhood, in which error_target_mm holds [mm]
-  double error_target_mm = 0.02;  ///< cells are split while a test point near the wall errs by more [mm]
-  double error_slope = 0.05;      ///< allowed error per millimetre of distance beyond near_mm [-]
+  double error_target_mm = 0.025;  ///< cells are split while a test point near the wall errs by more [mm]
+  double error_slope = 0.05;       ///< allowed error per millimetre of distance beyond near_mm [-]
   double min_spacing_mm =
       0.05;  ///< finest sample spacing; error_target_mm may be missed at edges below it [mm]
   double virtual_tube_mm = 60.0;       ///< length of the tube behind an opening [mm]

@@ -1,10 +1,10 @@
 #include "endowire/vessel/stl.hpp"
 
-#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include "endowire/base/bits.hpp"
 
 #include "endowire/base/error.hpp"
 
@@ -23,7 +23,7 @@ std::uint32_t read_u32(const std::byte* p) {  // little endian whatever the mach
 }
 
 double read_float(const std::byte* p) {
-  return static_cast<double>(std::bit_cast<float>(read_u32(p)));
+  return static_cast<double>(base::bits_as<float>(read_u32(p)));
 }
 
 void write_u32(std::vector<std::byte>& out, std::uint32_t value) {
@@ -273,7 +273,7 @@ std::vector<std::byte> write_binary_stl(const TriangleMesh& mesh) {
   std::memcpy(out.data(), "endowire, mm", 12);
   write_u32(out, static_cast<std::uint32_t>(mesh.triangles.size()));
   const auto write = [&](const Eigen::Vector3d& v) {
-    for (int k = 0; k < 3; ++k) write_u32(out, std::bit_cast<std::uint32_t>(static_cast<float>(v[k])));
+    for (int k = 0; k < 3; ++k) write_u32(out, base::bits_as<std::uint32_t>(static_cast<float>(v[k])));
   };
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     write(mesh.area_normal(t).stableNormalized());

@@ -64,8 +64,8 @@ double ExactSurface::sign(const Vector3d& point, const NearestPoint& nearest) co
   return normal.dot(point - nearest.point_mm) <= 0.0 ? 1.0 : -1.0;
 }
 
-ExactSurface::Sample ExactSurface::at(const Vector3d& point) const {
-  const NearestPoint nearest = bvh_.nearest(point);
+ExactSurface::Sample ExactSurface::at(const Vector3d& point, double within_mm) const {
+  const NearestPoint nearest = bvh_.nearest(point, within_mm);
   return {sign(point, nearest) * nearest.distance_mm, nearest.point_mm, nearest.triangle};
 }
 

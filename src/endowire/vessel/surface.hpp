@@ -24,7 +24,9 @@ class ExactSurface {
     Eigen::Vector3d nearest_mm = Eigen::Vector3d::Zero();
     std::int32_t triangle = -1;
   };
-  [[nodiscard]] Sample at(const Eigen::Vector3d& point_mm) const;
+  /// @param within_mm  a distance within which the surface is known to come: makes the search shorter
+  [[nodiscard]] Sample at(const Eigen::Vector3d& point_mm,
+                          double within_mm = std::numeric_limits<double>::infinity()) const;
 
   /// The same from a list of candidate triangles near `centre_mm` (sorted by distance to it) that is known to
   /// hold the nearest one. Cheaper where many points are close together.
