@@ -16,3 +16,7 @@ if(ENDOWIRE_SANITIZE)
     -fsanitize=${ENDOWIRE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(endowire_compile INTERFACE -fsanitize=${ENDOWIRE_SANITIZE})
 endif()
+if(EMSCRIPTEN)  # exceptions are off by default there
+  target_compile_options(endowire_compile INTERFACE -fexceptions)
+  target_link_options(endowire_compile INTERFACE -fexceptions)
+endif()

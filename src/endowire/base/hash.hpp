@@ -1,7 +1,8 @@
 #pragma once
 
-#include <bit>
 #include <cstdint>
+
+#include "endowire/base/bits.hpp"
 
 namespace endowire::base {
 
@@ -14,7 +15,7 @@ class Hash {
       value_ *= 0x100000001b3ULL;
     }
   }
-  void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
+  void add(double number) { add(base::bits_as<std::uint64_t>(number)); }
   [[nodiscard]] std::uint64_t value() const { return value_; }
 
  private:

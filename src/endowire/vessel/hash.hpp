@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+
 #include "endowire/base/bits.hpp"
 
 namespace endowire::vessel {

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
-#include "endowire/base/bits.hpp"
 
+#include "endowire/base/bits.hpp"
 #include "endowire/base/error.hpp"
 
 namespace endowire::vessel {
