@@ -181,8 +181,11 @@ class MeshFieldBuilder {
   }
 
   double tolerance_mm(double distance_mm) const {
+    const double depth = std::abs(distance_mm);
+    if (depth <= (distance_mm > 0.0 ? parameters_.near_mm : parameters_.near_outside_mm))
+      return parameters_.error_target_mm;
     const double slope = distance_mm > 0.0 ? parameters_.error_slope : 2.0 * parameters_.error_slope;
-    return parameters_.error_target_mm + slope * std::max(0.0, std::abs(distance_mm) - parameters_.near_mm);
+    return std::max(parameters_.error_target_mm, slope * depth);
   }
 
   /// Samples a brick and, where its test points miss, notes it for splitting.
@@ -219,13 +222,13 @@ class MeshFieldBuilder {
     const Vector3d centre = origin + Vector3d::Constant(0.5 * size);
     const double reach = 0.5 * std::sqrt(3.0) * size;
     const double nearest = surface_.bvh().nearest(centre).distance_mm;
-    surface_.bvh().collect(centre, nearest + 2.0 * reach + 1e-9, candidates_);
-    candidate_centre_ = centre;
+    surface_.bvh().collect(centre, nearest + 2.0 * reach + 1e-9, found_);
+    surface_.pack(centre, found_, candidates_);
+    std::int32_t hint = 0;
     for (int i = 0; i < MeshField::nodes; ++i)
       for (int j = 0; j < MeshField::nodes; ++j)
         for (int k = 0; k < MeshField::nodes; ++k) {
-          const ExactSurface::Sample s =
-              surface_.at(origin + spacing * Vector3d(i, j, k), centre, candidates_);
+          const ExactSurface::Sample s = surface_.at(origin + spacing * Vector3d(i, j, k), candidates_, hint);
           distance_[node(i, j, k)] = s.distance_mm;
           triangle_[node(i, j, k)] = s.triangle;
           nearest_[node(i, j, k)] = s.nearest_mm;
@@ -330,8 +333,9 @@ class MeshFieldBuilder {
                              : spacing > 0.3 ? 4
                                              : 1;  // a crease in a large cell is easily missed
     double excess = 0.0;
+    std::int32_t hint = 0;
     const auto test = [&](const Vector3d& p) {
-      const double exact = surface_.at(p, candidate_centre_, candidates_).distance_mm;
+      const double exact = surface_.at(p, candidates_, hint).distance_mm;
       if (exact < -parameters_.band_outside_mm) return;
       const double error =
           std::abs(std::abs(field_.interpolate(index, p, place).distance_mm) - std::abs(exact));
@@ -390,7 +394,7 @@ class MeshFieldBuilder {
     double error_mm;
   };
 
-  /// Random points within near_mm of the vessel's own wall, by area, and how far the field misses there.
+  /// Random points near the vessel's own wall, by area, and how far the field misses there.
   template <typename Visit>
   void probe_near_wall(std::size_t count, std::uint64_t seed, Visit visit) {
     std::vector<double> cumulative(closed_.wall_triangles);
@@ -410,7 +414,7 @@ class MeshFieldBuilder {
       const Vector3d on_wall = closed_.mesh.corner(t, 0) +
                                u * (closed_.mesh.corner(t, 1) - closed_.mesh.corner(t, 0)) +
                                v * (closed_.mesh.corner(t, 2) - closed_.mesh.corner(t, 0));
-      const double offset = random.uniform(-parameters_.near_mm, parameters_.near_mm);
+      const double offset = random.uniform(-parameters_.near_mm, parameters_.near_outside_mm);
       const Vector3d p = on_wall + offset * surface_.normal(t);
       double exact = surface_.at(p, std::abs(offset) + 1e-6).distance_mm;
       const double found = field_.at(p).distance_mm;
@@ -525,8 +529,8 @@ class MeshFieldBuilder {
   std::array<std::int32_t, MeshField::samples_per_brick> triangle_{};
   std::array<Vector3d, MeshField::samples_per_brick> nearest_;
   std::array<Vector3d, MeshField::samples_per_brick> slope_;
-  Vector3d candidate_centre_ = Vector3d::Zero();
-  std::vector<TriangleBvh::Candidate> candidates_;
+  std::vector<TriangleBvh::Candidate> found_;
+  ExactSurface::Candidates candidates_;
 };
 
 MeshField MeshField::build(const RepairedMesh& repaired, const FieldParameters& parameters) {
@@ -540,6 +544,7 @@ std::uint64_t MeshField::key(const RepairedMesh& repaired, const FieldParameters
   for (double value : {parameters.band_outside_mm, parameters.near_mm, parameters.error_target_mm,
                        parameters.error_slope, parameters.min_spacing_mm, parameters.virtual_tube_mm})
     hash.add(value);
+  hash.add(parameters.near_outside_mm);
   hash.add(static_cast<std::uint64_t>(parameters.max_bytes));
   return hash.value();
 }

@@ -18,9 +18,10 @@ namespace endowire::vessel {
 struct FieldParameters {
   double band_outside_mm =
       2.5;               ///< the field is exact this deep into the wall; at least the deepest wire [mm]
-  double near_mm = 1.0;  ///< the wall's neighbourhood, in which error_target_mm holds [mm]
-  double error_target_mm = 0.025;  ///< cells are split while a test point near the wall errs by more [mm]
-  double error_slope = 0.05;       ///< allowed error per millimetre of distance beyond near_mm [-]
+  double near_mm = 1.0;  ///< error_target_mm holds this far into the lumen: the radius of an instrument [mm]
+  double near_outside_mm = 0.3;   ///< and this far into the wall: the deflection of an elastic wall [mm]
+  double error_target_mm = 0.03;  ///< cells are split while a test point near the wall errs by more [mm]
+  double error_slope = 0.05;      ///< allowed error per distance further in; twice that further out [-]
   double min_spacing_mm =
       0.05;  ///< finest sample spacing; error_target_mm may be missed at edges below it [mm]
   double virtual_tube_mm = 60.0;       ///< length of the tube behind an opening [mm]
@@ -34,7 +35,7 @@ struct FieldFacts {
   double finest_spacing_mm = 0.0;
   double coarsest_spacing_mm = 0.0;
   double error_max_mm = 0.0;  ///< largest, 99th percentile and median error against the exact distance ...
-  double error_p99_mm = 0.0;  ///< ... at `error_points` random points within near_mm of the wall
+  double error_p99_mm = 0.0;  ///< ... at `error_points` random points in that neighbourhood
   double error_p50_mm = 0.0;
   std::size_t error_points = 0;
   bool refinement_complete = false;                       ///< false: max_bytes or min_spacing_mm stopped it
@@ -50,12 +51,12 @@ struct FieldFacts {
 /// continuous to the stated error between bricks of different spacing. A brick is split where the lumen is
 /// narrow and, worst first, where test points in its cells miss the exact distance.
 ///
-/// Accuracy  error_mm() is the largest error measured against the exact distance within near_mm of the wall;
-/// beyond
-///           it grows by error_slope per millimetre, inside the lumen and down to band_outside_mm in the
-///           wall. Deeper, the distance is a bounded plane estimate per cell: negative, its gradient towards
-///           the wall. At a concave edge the interpolant lies below the true distance, at a carina above it:
-///           corners are rounded by at most the stated error.
+/// Accuracy  error_mm() is the largest error measured against the exact distance between near_outside_mm in
+/// the wall
+///           and near_mm in the lumen. Further in it is held to error_slope per millimetre, further out, down
+///           to band_outside_mm, to twice that. Deeper, the distance is a plane estimate per cell: negative
+///           and bounded, its gradient towards the wall. At a concave edge the interpolant lies below the
+///           true distance, at a carina above it: corners are rounded by at most the stated error.
 class MeshField final : public Field {
  public:
   static constexpr int cells = 4;          ///< per edge of a brick

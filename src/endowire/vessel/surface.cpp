@@ -69,27 +69,57 @@ ExactSurface::Sample ExactSurface::at(const Vector3d& point, double within_mm) c
   return {sign(point, nearest) * nearest.distance_mm, nearest.point_mm, nearest.triangle};
 }
 
-ExactSurface::Sample ExactSurface::at(const Vector3d& point, const Vector3d& centre,
-                                      const std::vector<TriangleBvh::Candidate>& candidates) const {
-  const double shift = (point - centre).norm();
+void ExactSurface::pack(const Vector3d& centre_mm, const std::vector<TriangleBvh::Candidate>& found,
+                        Candidates& out) const {
+  out.centre_mm = centre_mm;
+  out.entries.clear();
+  for (const TriangleBvh::Candidate& c : found) {
+    const auto t = static_cast<std::size_t>(c.triangle);
+    const Vector3d middle = (mesh_.corner(t, 0) + mesh_.corner(t, 1) + mesh_.corner(t, 2)) / 3.0;
+    double radius2 = 0.0;
+    for (std::size_t k = 0; k < 3; ++k)
+      radius2 = std::max(radius2, (mesh_.corner(t, k) - middle).squaredNorm());
+    out.entries.push_back({c.distance_mm,
+                           middle,
+                           std::sqrt(radius2) * (1.0 + 1e-12),
+                           face_normals_[t],
+                           face_normals_[t].dot(mesh_.corner(t, 0)),
+                           c.triangle,
+                           {mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)}});
+  }
+}
+
+ExactSurface::Sample ExactSurface::at(const Vector3d& point, const Candidates& candidates,
+                                      std::int32_t& hint) const {
+  constexpr double slack_mm = 1e-9;  // rounding of the bounds; they only save work
+  const double shift = (point - candidates.centre_mm).norm() + slack_mm;
   NearestPoint best;
   double best2 = std::numeric_limits<double>::infinity();
-  for (const TriangleBvh::Candidate& candidate : candidates) {
-    const double bound = candidate.distance_mm - shift;  // no point of this or a later triangle is nearer
-    if (bound > 0.0 && bound * bound > best2) break;
-    const auto t = static_cast<std::size_t>(candidate.triangle);
-    const double plane = face_normals_[t].dot(point - mesh_.corner(t, 0));
-    if (plane * plane > best2) continue;
+  double reach = best2;  // √best2 and the slack
+  const auto visit = [&](std::size_t i) {
+    const Candidates::Entry& entry = candidates.entries[i];
+    const std::int32_t triangle = entry.triangle;
     Vector3d q;
     std::int8_t feature = 0;
     const double d2 =
-        nearest_on_triangle(point, mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), q, feature);
-    if (d2 < best2 || (d2 == best2 && candidate.triangle < best.triangle)) {
-      best2 = d2;
-      best.point_mm = q;
-      best.triangle = candidate.triangle;
-      best.feature = feature;
-    }
+        nearest_on_triangle(point, entry.corner_mm[0], entry.corner_mm[1], entry.corner_mm[2], q, feature);
+    if (d2 > best2 || (d2 == best2 && triangle >= best.triangle)) return;
+    best2 = d2;
+    reach = std::sqrt(best2) + slack_mm;
+    best.point_mm = q;
+    best.triangle = triangle;
+    best.feature = feature;
+    hint = static_cast<std::int32_t>(i);
+  };
+  const auto first = static_cast<std::size_t>(hint);
+  visit(first);
+  for (std::size_t i = 0; i < candidates.entries.size(); ++i) {
+    const Candidates::Entry& entry = candidates.entries[i];
+    if (entry.distance_mm - shift > reach) break;  // neither this nor a later triangle is nearer
+    const double ball = reach + entry.radius_mm;
+    if ((point - entry.centre_mm).squaredNorm() > ball * ball) continue;
+    if (std::abs(entry.normal.dot(point) - entry.offset_mm) > reach) continue;
+    if (i != first) visit(i);
   }
   best.distance_mm = std::sqrt(best2);
   return {sign(point, best) * best.distance_mm, best.point_mm, best.triangle};

@@ -28,10 +28,27 @@ class ExactSurface {
   [[nodiscard]] Sample at(const Eigen::Vector3d& point_mm,
                           double within_mm = std::numeric_limits<double>::infinity()) const;
 
-  /// The same from a list of candidate triangles near `centre_mm` (sorted by distance to it) that is known to
-  /// hold the nearest one. Cheaper where many points are close together.
-  [[nodiscard]] Sample at(const Eigen::Vector3d& point_mm, const Eigen::Vector3d& centre_mm,
-                          const std::vector<TriangleBvh::Candidate>& candidates) const;
+  /// Triangles near a ball, laid out for many queries inside it.
+  struct Candidates {
+    struct Entry {
+      double distance_mm;         ///< to the centre of the ball; ascending
+      Eigen::Vector3d centre_mm;  ///< of the triangle's bounding ball
+      double radius_mm;
+      Eigen::Vector3d normal;
+      double offset_mm;  ///< of its plane
+      std::int32_t triangle;
+      std::array<Eigen::Vector3d, 3> corner_mm;
+    };
+    Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();
+    std::vector<Entry> entries;
+  };
+  void pack(const Eigen::Vector3d& centre_mm, const std::vector<TriangleBvh::Candidate>& found,
+            Candidates& out) const;
+
+  /// The same from candidates that are known to hold the nearest triangle.
+  /// @param hint  entry to begin with; on return the nearest one, a good hint for a point close by
+  [[nodiscard]] Sample at(const Eigen::Vector3d& point_mm, const Candidates& candidates,
+                          std::int32_t& hint) const;
 
   [[nodiscard]] const TriangleBvh& bvh() const { return bvh_; }
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
