@@ -28,6 +28,11 @@ int main(int argc, char** argv) {
       if (app.got_subcommand(name)) return run();
   } catch (const CLI::Success& help) {
     return app.exit(help);
+  } catch (const CLI::RequiredError& error) {
+    if (argc > 1 && app.get_subcommands().empty())
+      return complain(std::string("endowire: \"") + argv[1] +
+                      "\" is no subcommand; must be inspect, instruments or simulate");
+    return complain(std::string("endowire: ") + error.what());
   } catch (const CLI::ParseError& error) {
     return complain(std::string("endowire: ") + error.what());
   } catch (const base::InputError& error) {

@@ -317,6 +317,7 @@ void draw_force_curve(Svg& svg, double x, double y, double width, double height,
     longest = std::max(longest, point.inserted_mm);
   }
   if (!(longest > 0.0) || !(high - low > 0.0)) return;
+  if (low > -0.02 * high) low = 0.0;  // a trace of pull needs no room of its own
   svg.text(x, y, "Push force over inserted length", 13, ink, "font-weight=\"bold\"");
   const double step_n = nice_above((high - low) / 5.0);
   const double first = std::floor(low / step_n);
@@ -435,7 +436,7 @@ std::string wire_picture_svg(const vessel::TriangleMesh& mesh, const Snapshot& s
                              const sim::Access& access, const PictureContent& content) {
   const std::vector<SnapshotPoint> points = wire_in_vessel(snapshot);
   const double largest = largest_force(points);
-  const double full_scale = largest > 1e-9 ? nice_above(largest) : 1.0;
+  const double full_scale = largest > 1e-9 ? nice_above(largest) : 0.01;
 
   // One scale for both overviews, with room for captions and labels; narrow vessels get wider margins.
   const std::array<View, 2> views =

@@ -33,6 +33,10 @@ VesselMesh read_vessel_file(const fs::path& path, vessel::LengthUnit unit) {
   return mesh;
 }
 
+VesselMesh generate_vessel(const std::string& name) {
+  throw base::InputError("vessel.generate is \"" + one_line(name) + "\"; this build has no generator");
+}
+
 PreparedField prepare_field(const VesselMesh& mesh, const fs::path& cache_folder,
                             const vessel::FieldParameters& parameters) {
   PreparedField prepared;

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "endowire/base/error.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace endowire::io {
 namespace {

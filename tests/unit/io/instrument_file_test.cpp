@@ -8,7 +8,7 @@
 #include "endowire/base/error.hpp"
 #include "endowire/io/instrument_json.hpp"
 #include "nlohmann/json.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace endowire::io {
 namespace {

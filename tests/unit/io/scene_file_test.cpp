@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "endowire/base/error.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace endowire::io {
 namespace {
