@@ -292,8 +292,10 @@ void Simulation::Impl::adapt_sheath(double inserted_mm) {
 }
 
 const StepReport& Simulation::Impl::step(const Command& command) {
-  report_ = StepReport{.events = std::move(report_.events)};
-  report_.events.clear();
+  std::vector<Event> events = std::move(report_.events);  // keeps its memory
+  events.clear();
+  report_ = StepReport{};
+  report_.events = std::move(events);
   report_.converged = true;
   const bool finite = std::isfinite(command.advance_mm) && std::isfinite(command.torque_rad);
   const double pieces = std::max({1.0, std::ceil(std::abs(command.advance_mm) / spec_.max_advance_mm - 1e-9),
