@@ -63,7 +63,7 @@ void SegmentHits::operator+=(const SegmentHits& other) {
   last = std::max(last, other.last);
 }
 
-/// Nearest point of a triangle by its Voronoi regions [Ericson, Real-Time Collision Detection, §5.1.5].
+/// Nearest point of a triangle by its Voronoi regions [Ericson2005 §5.1.5].
 Vector3d nearest_on_triangle(const Triangle& triangle, const Vector3d& p) {
   const auto& [a, b, c] = triangle;
   const Vector3d ab = b - a;
@@ -90,7 +90,7 @@ Vector3d nearest_on_triangle(const Triangle& triangle, const Vector3d& p) {
   return a + (vb * ab + vc * ac) / sum;
 }
 
-/// Möller–Trumbore with closed, slightly grown bounds, so that no segment slips between two neighbours.
+/// [MollerTrumbore1997] with closed, slightly grown bounds, so that no segment slips between two neighbours.
 SegmentHits hits_of(const Triangle& triangle, const Vector3d& from, const Vector3d& to) {
   SegmentHits result;
   const Vector3d d = to - from;

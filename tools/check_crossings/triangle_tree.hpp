@@ -33,11 +33,9 @@ struct NearestPoint {
 /// A binary tree of boxes over triangles: exact nearest point, exact segment hits, generalized winding
 /// number.
 ///
-/// Winding number   w(p) = Σ Ω_t(p) / 4π, Ω by van Oosterom & Strackee (1983); clusters farther away than
-/// twice their
-///                  radius count as one dipole [Barill et al., ACM Trans. Graph. 37:43, 2018]. Its error, a
-///                  few hundredths, is far below the half that separates inside from outside of a closed
-///                  surface.
+/// Winding number   w(p) = Σ Ω_t(p) / 4π, Ω of [VanOosteromStrackee1983]; clusters farther away than twice
+///                  their radius count as one dipole [Barill2018]. Its error, a few hundredths, is far below
+///                  the half that separates inside from outside of a closed surface.
 class TriangleTree {
  public:
   TriangleTree() = default;
