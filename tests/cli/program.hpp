@@ -18,18 +18,26 @@ struct Outcome {
 };
 
 inline std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
+  std::string result(1, '\'');
+  for (const char c : text) {
+    if (c == '\'') {
+      result += "'\\''";
+    } else {
+      result += c;
+    }
+  }
+  result += '\'';
+  return result;
 }
 
 /// Runs the built program as a user would; its working folder is the test's.
 inline Outcome run_endowire(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
-  std::string command = "cd " + quoted(folder.path().string()) + " && " + quoted(ENDOWIRE_PROGRAM);
-  for (const std::string& argument : arguments) command += " " + quoted(argument);
   const std::filesystem::path out = folder / ".stdout";
   const std::filesystem::path err = folder / ".stderr";
-  command += " > " + quoted(out.string()) + " 2> " + quoted(err.string());
+  std::string command = "cd ";
+  command.append(quoted(folder.path().string())).append(" && ").append(quoted(ENDOWIRE_PROGRAM));
+  for (const std::string& argument : arguments) command.append(" ").append(quoted(argument));
+  command.append(" > ").append(quoted(out.string())).append(" 2> ").append(quoted(err.string()));
   const int status = std::system(command.c_str());
   Outcome outcome;
   outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;

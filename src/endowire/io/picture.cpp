@@ -66,13 +66,21 @@ struct Colour {
   double r, g, b;
 };
 
+/// Where a force lies on the colour scale, 0 … 1: by its square root, for contacts are few and most are
+/// slight.
+double scale_position(double force, double full_scale) {
+  if (!std::isfinite(force)) return 1.0;
+  return std::sqrt(std::clamp(force / full_scale, 0.0, 1.0));
+}
+
 /// Dark ink where nothing presses, then blue-green, amber and red: readable on grey-blue, and in grey.
-Colour force_colour(double fraction) {
+/// @param position  0 … 1
+Colour scale_colour(double position) {
   constexpr std::array<Colour, 5> stops{
       {{28, 43, 57}, {0, 121, 140}, {237, 174, 73}, {226, 88, 34}, {170, 14, 60}}};
-  const double position = std::clamp(fraction, 0.0, 1.0) * static_cast<double>(stops.size() - 1);
-  const auto i = std::min(static_cast<std::size_t>(position), stops.size() - 2);
-  const double f = position - static_cast<double>(i);
+  const double place = position * static_cast<double>(stops.size() - 1);
+  const auto i = std::min(static_cast<std::size_t>(place), stops.size() - 2);
+  const double f = place - static_cast<double>(i);
   const auto mix = [f](double a, double b) { return a + f * (b - a); };
   return {mix(stops[i].r, stops[i + 1].r), mix(stops[i].g, stops[i + 1].g), mix(stops[i].b, stops[i + 1].b)};
 }
@@ -120,6 +128,10 @@ std::string escaped(const std::string& text) {
   }
   return out;
 }
+
+/// A light rim that keeps a label readable on dark ground.
+const char* const halo =
+    "paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"3.5\" stroke-linejoin=\"round\"";
 
 class Svg {
  public:
@@ -183,8 +195,8 @@ void draw_wire(Svg& svg, const Panel& panel, const std::vector<SnapshotPoint>& p
   for (std::size_t i = points.size() - 1; i > 0; --i) {
     const double force = 0.5 * (points[i].wall_force_n_per_mm + points[i - 1].wall_force_n_per_mm);
     svg.line(panel.place(points[i].position_mm), panel.place(points[i - 1].position_mm),
-             css(force_colour(std::isfinite(force) ? force / full_scale : 1.0)),
-             std::round(width * 100.0) / 100.0, "stroke-linecap=\"round\"");
+             css(scale_colour(scale_position(force, full_scale))), std::round(width * 100.0) / 100.0,
+             "stroke-linecap=\"round\"");
   }
 }
 
@@ -202,19 +214,24 @@ void draw_scale_bar(Svg& svg, const Panel& panel) {
   const double length_mm = nice_below(0.3 * panel.view.extent_mm.x());
   const Vector2d right(panel.x + panel.width - 16.0, panel.y + panel.height - 18.0);
   const Vector2d left = right - Vector2d(length_mm * panel.px_per_mm(), 0.0);
-  svg.line(left, right, ink, 2.0);
-  svg.line(left - Vector2d(0, 4), left + Vector2d(0, 4), ink, 2.0);
-  svg.line(right - Vector2d(0, 4), right + Vector2d(0, 4), ink, 2.0);
+  for (const bool rim : {true, false}) {
+    const char* const stroke = rim ? "#ffffff" : ink;
+    const double width = rim ? 5.0 : 2.0;
+    svg.line(left, right, stroke, width);
+    svg.line(left - Vector2d(0, 4), left + Vector2d(0, 4), stroke, width);
+    svg.line(right - Vector2d(0, 4), right + Vector2d(0, 4), stroke, width);
+  }
   svg.text(0.5 * (left.x() + right.x()), right.y() - 8.0, fmt::format("{:g} mm", length_mm), 12, ink,
-           "text-anchor=\"middle\"");
+           fmt::format("text-anchor=\"middle\" {}", halo));
 }
 
 void draw_axes(Svg& svg, const Panel& panel) {
   const Vector2d origin(panel.x + 18.0, panel.y + panel.height - 18.0);
   svg.line(origin, origin + Vector2d(22, 0), quiet_ink, 1.2, "marker-end=\"url(#arrow)\"");
   svg.line(origin, origin - Vector2d(0, 22), quiet_ink, 1.2, "marker-end=\"url(#arrow)\"");
-  svg.text(origin.x() + 31.0, origin.y() + 4.0, panel.axes[0], 12, quiet_ink);
-  svg.text(origin.x(), origin.y() - 31.0, panel.axes[1], 12, quiet_ink, "text-anchor=\"middle\"");
+  svg.text(origin.x() + 31.0, origin.y() + 4.0, panel.axes[0], 12, quiet_ink, halo);
+  svg.text(origin.x(), origin.y() - 31.0, panel.axes[1], 12, quiet_ink,
+           fmt::format("text-anchor=\"middle\" {}", halo));
 }
 
 /// A label `away` pixels beside a mark, on the side that has more room.
@@ -222,9 +239,7 @@ void label(Svg& svg, const Panel& panel, const Vector2d& at, double away, const 
            const char* colour) {
   const bool left = at.x() > panel.x + 0.72 * panel.width;
   svg.text(at.x() + (left ? -away : away), at.y() + 4.5, text, 13, colour,
-           fmt::format("font-weight=\"bold\" text-anchor=\"{}\" paint-order=\"stroke\" stroke=\"#ffffff\" "
-                       "stroke-width=\"3.5\" stroke-linejoin=\"round\"",
-                       left ? "end" : "start"));
+           fmt::format("font-weight=\"bold\" text-anchor=\"{}\" {}", left ? "end" : "start", halo));
 }
 
 void draw_marks(Svg& svg, const Panel& panel, const std::vector<SnapshotPoint>& points,
@@ -280,21 +295,25 @@ void draw_panel(Svg& svg, const Panel& panel, const vessel::TriangleMesh& mesh,
   draw_axes(svg, panel);
   draw_scale_bar(svg, panel);
   svg.add("</g>");
-  svg.text(panel.x + 14.0, panel.y + 24.0, panel.caption, 13, quiet_ink);
+  svg.text(panel.x + 14.0, panel.y + 24.0, panel.caption, 13, quiet_ink, halo);
 }
 
 void draw_colour_scale(Svg& svg, double x, double y, double width, double full_scale) {
   svg.text(x, y, "Wall force on the wire, N/mm", 13, ink, "font-weight=\"bold\"");
   std::string stops;
   for (int i = 0; i <= 16; ++i)
-    stops += fmt::format("<stop offset=\"{}%\" stop-color=\"{}\"/>", i * 6.25, css(force_colour(i / 16.0)));
+    stops += fmt::format("<stop offset=\"{}%\" stop-color=\"{}\"/>", i * 6.25, css(scale_colour(i / 16.0)));
   svg.add("<linearGradient id=\"scale\">" + stops + "</linearGradient>");
   svg.add(fmt::format(
       "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"12\" rx=\"3\" fill=\"url(#scale)\"/>", x,
       y + 12.0, width));
-  for (int i = 0; i <= 4; ++i)
-    svg.text(x + width * i / 4.0, y + 41.0, fmt::format("{:g}", full_scale * i / 4.0), 12, quiet_ink,
-             i == 0 ? "" : (i == 4 ? "text-anchor=\"end\"" : "text-anchor=\"middle\""));
+  for (const double part : {0.0, 0.05, 0.2, 0.5, 1.0}) {
+    const double at = x + width * scale_position(part, 1.0);
+    const char* const anchor = part == 0.0 ? "start" : (part == 1.0 ? "end" : "middle");
+    svg.text(at, y + 41.0, fmt::format("{:.6g}", full_scale * part), 12, quiet_ink,
+             fmt::format("text-anchor=\"{}\"", anchor));
+    if (part > 0.0 && part < 1.0) svg.line({at, y + 24.0}, {at, y + 28.0}, quiet_ink, 1.0);
+  }
 }
 
 void draw_numbers(Svg& svg, double x, double y, double width, const std::vector<HeadlineNumber>& numbers) {
