@@ -22,6 +22,7 @@ constexpr double base_spacing_limit_mm = 1.6;    // near walls; what error_targe
 constexpr double base_cells_per_radius = 2.5;    // so that every lumen is seen at all
 constexpr double radius_floor_spacing_mm = 0.2;  // finer only where the error asks for it
 constexpr double screen_fraction = 1.0;  // cells straighter than this part of the tolerance are not tested
+constexpr std::size_t long_list = 100;   // candidates that take longer to scan than the tree to search
 constexpr std::size_t max_roots = 2'000'000;   // 8 MB of references; a longer vessel gets larger root cells
 constexpr std::size_t report_points = 50'000;  // of the final error measurement
 constexpr std::size_t scout_points = 50'000;   // random points that look for cells the test points missed
@@ -224,15 +225,28 @@ class MeshFieldBuilder {
     const double nearest = surface_.bvh().nearest(centre).distance_mm;
     surface_.bvh().collect(centre, nearest + 2.0 * reach + 1e-9, found_);
     surface_.pack(centre, found_, candidates_);
-    std::int32_t hint = 0;
+    hint_ = 0;
+    last_point_ = centre;
+    last_distance_mm_ = nearest;
     for (int i = 0; i < MeshField::nodes; ++i)
       for (int j = 0; j < MeshField::nodes; ++j)
         for (int k = 0; k < MeshField::nodes; ++k) {
-          const ExactSurface::Sample s = surface_.at(origin + spacing * Vector3d(i, j, k), candidates_, hint);
+          const ExactSurface::Sample s = exact(origin + spacing * Vector3d(i, j, k));
           distance_[node(i, j, k)] = s.distance_mm;
           triangle_[node(i, j, k)] = s.triangle;
           nearest_[node(i, j, k)] = s.nearest_mm;
         }
+  }
+
+  /// Exact distance in the brick at hand: from its list of candidates, or, where that is long, from the tree,
+  /// the search bounded by the last answer.
+  ExactSurface::Sample exact(const Vector3d& p) {
+    if (candidates_.entries.size() <= long_list) return surface_.at(p, candidates_, hint_);
+    const double within = (std::abs(last_distance_mm_) + (p - last_point_).norm()) * (1.0 + 1e-9) + 1e-9;
+    const ExactSurface::Sample s = surface_.at(p, within);
+    last_point_ = p;
+    last_distance_mm_ = s.distance_mm;
+    return s;
   }
 
   /// Where two neighbouring nodes differ in sign though their distances say that no wall is between them, a
@@ -333,13 +347,12 @@ class MeshFieldBuilder {
                              : spacing > 0.3 ? 4
                                              : 1;  // a crease in a large cell is easily missed
     double excess = 0.0;
-    std::int32_t hint = 0;
     const auto test = [&](const Vector3d& p) {
-      const double exact = surface_.at(p, candidates_, hint).distance_mm;
-      if (exact < -parameters_.band_outside_mm) return;
+      const double truth = exact(p).distance_mm;
+      if (truth < -parameters_.band_outside_mm) return;
       const double error =
-          std::abs(std::abs(field_.interpolate(index, p, place).distance_mm) - std::abs(exact));
-      excess = std::max(excess, error / tolerance_mm(exact));
+          std::abs(std::abs(field_.interpolate(index, p, place).distance_mm) - std::abs(truth));
+      excess = std::max(excess, error / tolerance_mm(truth));
     };
     for (int i = 0; i < MeshField::cells; ++i)
       for (int j = 0; j < MeshField::cells; ++j)
@@ -531,6 +544,9 @@ class MeshFieldBuilder {
   std::array<Vector3d, MeshField::samples_per_brick> slope_;
   std::vector<TriangleBvh::Candidate> found_;
   ExactSurface::Candidates candidates_;
+  std::int32_t hint_ = 0;
+  Vector3d last_point_ = Vector3d::Zero();
+  double last_distance_mm_ = 0.0;
 };
 
 MeshField MeshField::build(const RepairedMesh& repaired, const FieldParameters& parameters) {

@@ -22,9 +22,24 @@ double radius_before(const ExactSurface& surface, std::size_t t) {
   const TriangleBvh::Hit hit = surface.bvh().cast(centre, -normal, 1e-6, unbounded);
   if (hit.triangle < 0) return 0.0;
   double radius = 0.0;
+  Vector3d middle = centre;
+  Vector3d touched = centre;
   for (double part : {0.5, 0.375, 0.625, 0.25}) {
     const double along = part * hit.distance_mm;
     const NearestPoint ball = surface.bvh().nearest(centre - along * normal, along * (1.0 + 1e-9), radius);
+    if (ball.triangle < 0 || ball.distance_mm <= radius) continue;
+    radius = ball.distance_mm;
+    middle = centre - along * normal;
+    touched = ball.point_mm;
+  }
+  // A facet's normal misses the axis by a part of the facet's width: recentre once on the chord through the
+  // ball.
+  const Vector3d away = (middle - touched).stableNormalized();
+  if (away.isZero()) return radius;
+  const TriangleBvh::Hit opposite = surface.bvh().cast(middle, away, 1e-6, 2.0 * radius);
+  if (opposite.triangle >= 0) {
+    const double half = 0.5 * (radius + opposite.distance_mm);
+    const NearestPoint ball = surface.bvh().nearest(touched + half * away, half * (1.0 + 1e-9), radius);
     if (ball.triangle >= 0) radius = std::max(radius, ball.distance_mm);
   }
   return std::isfinite(radius) ? radius : 0.0;

@@ -19,13 +19,12 @@ struct FieldParameters {
   double band_outside_mm =
       2.5;               ///< the field is exact this deep into the wall; at least the deepest wire [mm]
   double near_mm = 1.0;  ///< error_target_mm holds this far into the lumen: the radius of an instrument [mm]
-  double near_outside_mm = 0.3;   ///< and this far into the wall: the deflection of an elastic wall [mm]
-  double error_target_mm = 0.03;  ///< cells are split while a test point near the wall errs by more [mm]
-  double error_slope = 0.05;      ///< allowed error per distance further in; twice that further out [-]
-  double min_spacing_mm =
-      0.05;  ///< finest sample spacing; error_target_mm may be missed at edges below it [mm]
+  double near_outside_mm = 0.3;        ///< and this far into the wall: the deflection of an elastic wall [mm]
+  double error_target_mm = 0.03;       ///< cells are split while a test point near the wall errs by more [mm]
+  double error_slope = 0.05;           ///< allowed error per distance further in; twice that further out [-]
+  double min_spacing_mm = 0.1;         ///< finest sample spacing; sharper edges miss error_target_mm [mm]
   double virtual_tube_mm = 60.0;       ///< length of the tube behind an opening [mm]
-  std::size_t max_bytes = 60'000'000;  ///< refinement, worst cell first, stops here; error_mm() then tells
+  std::size_t max_bytes = 40'000'000;  ///< refinement, worst cell first, stops here; error_mm() then tells
 };
 
 /// What a prepared field is, for reports.
