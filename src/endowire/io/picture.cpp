@@ -350,13 +350,16 @@ void draw_force_curve(Svg& svg, double x, double y, double width, double height,
   };
   const double step_mm = nice_above(longest / 5.5);
   const auto at_x = [&](double length) { return left + length / longest * (right - left); };
-  for (double k = first; k <= last; k += 1.0) {
-    svg.line({left, at_y(k * step_n)}, {right, at_y(k * step_n)}, k == 0.0 ? "#9fb0be" : "#e4eaef", 1.0);
-    svg.text(left - 8.0, at_y(k * step_n) + 4.0, fmt::format("{:.6g}", k * step_n), 12, quiet_ink,
+  const int lines = static_cast<int>(std::lround(last - first));
+  for (int i = 0; i <= lines; ++i) {
+    const double force = (first + i) * step_n;
+    svg.line({left, at_y(force)}, {right, at_y(force)}, force == 0.0 ? "#9fb0be" : "#e4eaef", 1.0);
+    svg.text(left - 8.0, at_y(force) + 4.0, fmt::format("{:.6g}", force), 12, quiet_ink,
              "text-anchor=\"end\"");
   }
-  for (double length = 0.0; length <= longest; length += step_mm)
-    svg.text(at_x(length), below + 18.0, fmt::format("{:g}", length), 12, quiet_ink,
+  const int marks = static_cast<int>(std::floor(longest / step_mm));
+  for (int i = 0; i <= marks; ++i)
+    svg.text(at_x(i * step_mm), below + 18.0, fmt::format("{:g}", i * step_mm), 12, quiet_ink,
              "text-anchor=\"middle\"");
   svg.text(right, y + height, "inserted, mm", 12, quiet_ink, "text-anchor=\"end\"");
   svg.text(left, y + height, "N", 12, quiet_ink, "text-anchor=\"end\" dx=\"-8\"");

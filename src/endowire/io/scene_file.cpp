@@ -254,8 +254,9 @@ std::vector<TimedCommand> commands_of(const SceneFile& scene) {
       torque_deg += hand.torque_deg;
     }
     const sim::Command command{advance_mm / count, torque_deg / count * std::numbers::pi / 180.0};
-    for (double i = 1.0; i <= count; i += 1.0)
-      commands.push_back({start_s + motion.duration_s * (i / count), command});
+    const auto steps = static_cast<std::size_t>(count);
+    for (std::size_t i = 1; i <= steps; ++i)
+      commands.push_back({start_s + motion.duration_s * (static_cast<double>(i) / count), command});
     start_s += motion.duration_s;
   }
   return commands;
