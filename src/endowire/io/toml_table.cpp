@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "endowire/base/error.hpp"
 #include "endowire/io/file.hpp"
@@ -122,7 +123,7 @@ std::string TomlTable::string(std::string_view key, std::string_view what) const
 }
 
 std::string TomlTable::string_or(std::string_view key, std::string otherwise, std::string_view what) const {
-  return has(key) ? string(key, what) : otherwise;
+  return has(key) ? string(key, what) : std::move(otherwise);
 }
 
 Eigen::Vector3d TomlTable::vector(std::string_view key) const {
