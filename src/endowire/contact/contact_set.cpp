@@ -55,6 +55,28 @@ Eigen::Vector2d slip_of(const Sample& s, const rod::ChainShape& shape) {
   return s.anchor_mm + Eigen::Vector2d(s.axial.dot(moved), s.around.dot(moved) + s.radius_mm * turned);
 }
 
+/// Lays derivatives by the position of a sample and the spin of its rod onto the unknowns of its two joints.
+/// @param hand  1, or 0 to leave the joint on the hand's side out
+void scatter(const Sample& s, const Eigen::Vector4d& g, const Eigen::Matrix4d& h, double hand,
+             math::BandMatrix& hessian, std::vector<double>& gradient) {
+  const int first = 4 * s.rod;
+  const double a = 1.0 - s.fraction;
+  const double b = s.fraction * hand;
+  for (int r = 0; r < 3; ++r) {
+    gradient[at(first + r)] += a * g[r];
+    gradient[at(first + 4 + r)] += b * g[r];
+    for (int c = 0; c <= r; ++c) {
+      hessian.lower(first + r, first + c) += a * a * h(r, c);
+      hessian.lower(first + 4 + r, first + 4 + c) += b * b * h(r, c);
+    }
+    for (int c = 0; c < 3; ++c) hessian.lower(first + 4 + r, first + c) += a * b * h(r, c);
+    hessian.lower(first + 3, first + r) += a * h(3, r);
+    hessian.lower(first + 4 + r, first + 3) += b * h(r, 3);
+  }
+  gradient[at(first + 3)] += g[3];
+  hessian.lower(first + 3, first + 3) += h(3, 3);
+}
+
 FrictionLaw friction_of(const Sample& s) { return {s.stick_stiffness_n_per_mm, s.friction * s.lagged_normal_n}; }
 
 }  // namespace
@@ -103,6 +125,7 @@ void ContactSet::place(const rod::MaterialLine& line, const rod::ChainMaterial& 
 }
 
 void ContactSet::detect(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec) {
+  models_since_detection_ = 0;
   for (Sample& s : samples_) {
     s.detected_at_mm = reachable_point_mm(field, s.detected_at_mm, s.position_mm(shape));
     const Eigen::Vector3d tangent = tangent_at(shape, s);
@@ -140,8 +163,10 @@ double ContactSet::energy_mj(const rod::ChainShape& shape) {
 
 double ContactSet::add_derivatives(const rod::ChainShape& shape, math::BandMatrix& hessian,
                                    std::vector<double>& gradient) {
+  ++models_since_detection_;
   double energy = 0.0;
   for (Sample& s : samples_) {
+    s.in_model = {};
     s.normal_n = 0.0;
     s.deflection_mm = 0.0;
     if (s.walls == 0) continue;
@@ -159,7 +184,7 @@ double ContactSet::add_derivatives(const rod::ChainShape& shape, math::BandMatri
       s.deflection_mm = std::max(s.deflection_mm, depth);
       g.head<3>() -= w.force_n * height.gradient;
       h.topLeftCorner<3, 3>() += w.stiffness_n_per_mm * height.gradient * height.gradient.transpose() -
-                                 w.force_n * height.hessian;
+                                 w.bounded_force_n * height.hessian;
     }
     if (s.friction > 0.0 && s.lagged_normal_n > 0.0) {
       const FrictionResponse f = friction_response(friction_of(s), slip_of(s, shape));
@@ -171,24 +196,42 @@ double ContactSet::add_derivatives(const rod::ChainShape& shape, math::BandMatri
       g += slip.transpose() * f.force_n;
       h += slip.transpose() * f.stiffness_n_per_mm * slip;
     }
-    const int first = 4 * s.rod;
-    const double a = 1.0 - s.fraction;
-    const double b = s.fraction;
-    for (int r = 0; r < 3; ++r) {
-      gradient[at(first + r)] += a * g[r];
-      gradient[at(first + 4 + r)] += b * g[r];
-      for (int c = 0; c <= r; ++c) {
-        hessian.lower(first + r, first + c) += a * a * h(r, c);
-        hessian.lower(first + 4 + r, first + 4 + c) += b * b * h(r, c);
-      }
-      for (int c = 0; c < 3; ++c) hessian.lower(first + 4 + r, first + c) += a * b * h(r, c);
-      hessian.lower(first + 3, first + r) += a * h(3, r);
-      hessian.lower(first + 4 + r, first + 3) += b * h(r, 3);
-    }
-    gradient[at(first + 3)] += g[3];
-    hessian.lower(first + 3, first + 3) += h(3, 3);
+    scatter(s, g, h, 1.0, hessian, gradient);
   }
   return energy;
+}
+
+bool ContactSet::anticipate(const rod::ChainShape& shape, const std::vector<double>& step, int hand_joint,
+                            math::BandMatrix& hessian, std::vector<double>& gradient) {
+  constexpr double kDeep = 0.5;  // of the cap
+  bool changed = false;
+  for (Sample& s : samples_) {
+    const auto moved = [&](int joint) { return Eigen::Map<const Eigen::Vector3d>(step.data() + 4 * joint); };
+    const Eigen::Vector3d u = s.position_mm(shape) - s.detected_at_mm;
+    for (int k = 0; k < s.walls; ++k) {
+      const LocalHeight height = local_height_derivatives(s.wall[at(k)], u);
+      const double depth = s.radius_mm - height.value_mm;
+      const Eigen::Vector3d& n = height.gradient;
+      const Eigen::Vector3d motion = (1.0 - s.fraction) * moved(s.rod) + s.fraction * moved(s.rod + 1);
+      const bool closes = depth < kWallOnset_mm && depth - n.dot(motion) > kWallOnset_mm;
+      const bool buried = models_since_detection_ == 1 && depth > kDeep * s.cap_mm;
+      // A wall that others now keep the wire off leaves the model again: it would pull.
+      if ((closes || buried) == s.in_model[at(k)]) continue;
+      const double sign = s.in_model[at(k)] ? -1.0 : 1.0;
+      // The wall as a spring that also pulls, in place of what the model has of it.
+      const WallResponse present = wall_response(s.stiffness_n_per_mm, s.cap_mm, depth);
+      const double force = s.stiffness_n_per_mm * (depth - 0.5 * kWallOnset_mm) - present.force_n;
+      const double stiffness = s.stiffness_n_per_mm - present.stiffness_n_per_mm;
+      Eigen::Vector4d g = Eigen::Vector4d::Zero();
+      Eigen::Matrix4d h = Eigen::Matrix4d::Zero();
+      g.head<3>() = -sign * force * n;
+      h.topLeftCorner<3, 3>() = sign * stiffness * n * n.transpose();
+      scatter(s, g, h, s.rod + 1 == hand_joint ? 0.0 : 1.0, hessian, gradient);
+      s.in_model[at(k)] = !s.in_model[at(k)];
+      changed = true;
+    }
+  }
+  return changed;
 }
 
 double ContactSet::lag_error() const {

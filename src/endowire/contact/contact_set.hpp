@@ -45,6 +45,7 @@ struct Sample {
   // At the state evaluated last.
   double normal_n = 0.0;
   double deflection_mm = 0.0;
+  std::array<bool, kMaxWalls> in_model{};  ///< walls already in the present quadratic model as anticipated
 
   [[nodiscard]] Eigen::Vector3d position_mm(const rod::ChainShape& shape) const {
     const auto i = static_cast<std::size_t>(rod);
@@ -98,6 +99,13 @@ class ContactSet {
   /// Adds gradient and Hessian; returns the energy.
   double add_derivatives(const rod::ChainShape& shape, math::BandMatrix& hessian, std::vector<double>& gradient);
 
+  /// Adds to a quadratic model the walls that a step would run into, takes out those that it no longer would, and, in the first model after a detection, softens those
+  /// that the prediction lies deep in: their force says nothing yet. `hand_joint` is not given anything.
+  /// @param step  displacement of each joint, four numbers apart
+  /// @return      whether anything changed
+  bool anticipate(const rod::ChainShape& shape, const std::vector<double>& step, int hand_joint,
+                  math::BandMatrix& hessian, std::vector<double>& gradient);
+
   /// Σ|N − N_lagged| / ΣN over the samples that rub.
   [[nodiscard]] double lag_error() const;
   void renew_lagged();
@@ -114,6 +122,7 @@ class ContactSet {
 
  private:
   std::vector<Sample> samples_;
+  int models_since_detection_ = 0;
 };
 
 }  // namespace endowire::contact

@@ -74,24 +74,29 @@ double predicted_height_mm(const Sample& sample, const Eigen::Vector3d& displace
 Eigen::Vector3d reachable_point_mm(const vessel::Field& field, const Eigen::Vector3d& from_mm,
                                    const Eigen::Vector3d& to_mm) {
   const double length = (to_mm - from_mm).norm();
-  // The nearest wall is further than the path is long: nothing can be in between.
-  const double end = field.at(to_mm).distance_mm;
-  if (end > length) return to_mm;
+  // Where the nearest wall is further than the path is long, nothing can be in between.
   double height = field.at(from_mm).distance_mm;
-  if (height > length) return to_mm;
+  if (height > length || field.at(to_mm).distance_mm > length) return to_mm;
   double travelled = 0.0;
-  while (height > kStop_mm) {
-    travelled += std::max(height - 0.5 * kStop_mm, 0.5 * kStop_mm);
-    if (travelled >= length) return end > kStop_mm ? to_mm : Eigen::Vector3d(from_mm + (length - kStop_mm) / length * (to_mm - from_mm));
+  double previous = -HUGE_VAL;
+  while (height > kStop_mm || height > previous) {  // a path that starts low may rise
+    travelled += std::max(height, 0.5 * kStop_mm);
+    if (travelled >= length) return to_mm;
+    previous = height;
     height = field.at(from_mm + travelled / length * (to_mm - from_mm)).distance_mm;
   }
-  return from_mm + travelled / std::max(length, 1e-12) * (to_mm - from_mm);
+  return length > 0.0 ? Eigen::Vector3d(from_mm + travelled / length * (to_mm - from_mm)) : from_mm;
 }
 
 void find_local_walls(const vessel::Field& field, const ContactSpec& spec, const Eigen::Vector3d& tangent,
                       Sample& sample) {
-  const Eigen::Vector3d& q = sample.detected_at_mm;
-  const vessel::WallDistance nearest = field.at(q);
+  Eigen::Vector3d& q = sample.detected_at_mm;
+  vessel::WallDistance nearest = field.at(q);
+  if (nearest.distance_mm < sample.radius_mm && nearest.gradient.norm() > 0.5) {
+    // Lifted to where the wire will lie on the wall: there the local walls must be good.
+    q += (sample.radius_mm - nearest.distance_mm) * nearest.gradient.normalized();
+    nearest = field.at(q);
+  }
   sample.walls = 0;
   sample.clearance_mm = nearest.distance_mm - sample.radius_mm;
   const double slope = nearest.gradient.norm();
@@ -121,8 +126,10 @@ void find_local_walls(const vessel::Field& field, const ContactSpec& spec, const
       if (!(norm > 0.5)) continue;
       const Eigen::Vector3d normal = probe.gradient / norm;
       const Eigen::Vector3d first = math::any_normal(normal);
+      // Over a ridge the plane would pass above the sample: no wall is nearer to it than the nearest one.
       sample.wall[static_cast<std::size_t>(sample.walls++)] =
-          LocalWall{normal, first, normal.cross(first), probe.distance_mm - normal.dot(offset), 0.0, 0.0};
+          LocalWall{normal, first, normal.cross(first),
+                    std::max(probe.distance_mm - normal.dot(offset), nearest.distance_mm), 0.0, 0.0};
     }
   }
 }

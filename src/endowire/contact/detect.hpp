@@ -8,7 +8,8 @@ namespace endowire::contact {
 [[nodiscard]] Eigen::Vector3d reachable_point_mm(const vessel::Field& field, const Eigen::Vector3d& from_mm,
                                                  const Eigen::Vector3d& to_mm);
 
-/// Finds up to three local walls around sample.detected_at_mm, which must be set and lie in the lumen.
+/// Finds up to three local walls around sample.detected_at_mm, which must be set and lie in the lumen; where that is nearer to
+/// the wall than the wire's radius, it is lifted to the radius first.
 ///
 /// The nearest wall comes with its principal curvatures, from differences of the field's gradient. Then the field is probed
 /// around the sample: where it is nearer than the walls found so far predict (a corner between two facets, the far

@@ -7,8 +7,7 @@ namespace endowire::contact {
 
 namespace {
 
-constexpr double kOnset_mm = 0.005;      // ε: a tenth changes forces by less than 1 % (tests/invariance)
-constexpr double kTangentFrom = 0.95;    // of the cap
+constexpr double kTangentFrom = 0.9;     // of the cap
 
 double plane_modulus(const WallSpec& spec) {
   return spec.modulus_mpa / (1.0 - spec.poisson_ratio * spec.poisson_ratio);
@@ -32,15 +31,16 @@ double wall_cap_mm(const WallSpec& spec, double lumen_radius_mm, double tissue_m
 
 WallResponse wall_response(double stiffness_n_per_mm, double cap_mm, double depth_mm) {
   if (!(depth_mm > 0.0)) return {};
-  const bool onset = depth_mm < kOnset_mm;
-  const double s = onset ? depth_mm * depth_mm / (2.0 * kOnset_mm) : depth_mm - 0.5 * kOnset_mm;
-  const double ds = onset ? depth_mm / kOnset_mm : 1.0;
-  const double dds = onset ? 1.0 / kOnset_mm : 0.0;
+  const bool onset = depth_mm < kWallOnset_mm;
+  const double s = onset ? depth_mm * depth_mm / (2.0 * kWallOnset_mm) : depth_mm - 0.5 * kWallOnset_mm;
+  const double ds = onset ? depth_mm / kWallOnset_mm : 1.0;
+  const double dds = onset ? 1.0 / kWallOnset_mm : 0.0;
   const auto law = [&](double x) {
     // ∫ kx/(1 − x/c) dx = −k c² (x/c + ln(1 − x/c))
     const double q = 1.0 - x / cap_mm;
     return WallResponse{-stiffness_n_per_mm * cap_mm * cap_mm * (x / cap_mm + std::log1p(-x / cap_mm)),
-                        stiffness_n_per_mm * x / q, stiffness_n_per_mm / (q * q)};
+                        stiffness_n_per_mm * x / q, stiffness_n_per_mm / (q * q),
+                        stiffness_n_per_mm * x / q};
   };
   const double last = kTangentFrom * cap_mm;
   WallResponse w = law(std::min(s, last));
@@ -49,7 +49,7 @@ WallResponse wall_response(double stiffness_n_per_mm, double cap_mm, double dept
     w.energy_mj += w.force_n * beyond + 0.5 * w.stiffness_n_per_mm * beyond * beyond;
     w.force_n += w.stiffness_n_per_mm * beyond;
   }
-  return {w.energy_mj, w.force_n * ds, w.stiffness_n_per_mm * ds * ds + w.force_n * dds};
+  return {w.energy_mj, w.force_n * ds, w.stiffness_n_per_mm * ds * ds + w.force_n * dds, w.bounded_force_n * ds};
 }
 
 }  // namespace endowire::contact

@@ -190,26 +190,47 @@ double ChainProblem::linearise(math::BandMatrix& hessian, std::vector<double>& g
   rod::geometric_force_n(material, shape, gradient, held, scratch_, geometric_force_);
   energy += rod::add_stretch_derivatives(material, shape, geometric_force_, hessian, gradient);
   if (feed.active) energy += add_feed(hessian, gradient);
+  hold(hessian, gradient);
+  measure_scales();
+  return energy;
+}
+
+void ChainProblem::hold(math::BandMatrix& hessian, std::vector<double>& gradient) const {
   for (int i = 0; i < unknowns(); ++i) {
     if (!held[at(i)]) continue;
     hessian.fix(i);
     gradient[at(i)] = 0.0;
   }
-  measure_scales();
-  return energy;
+}
+
+bool ChainProblem::anticipate(const std::vector<double>& direction, math::BandMatrix& hessian,
+                              std::vector<double>& gradient) {
+  if (contact.empty()) return false;
+  to_cartesian(direction);
+  if (!contact.anticipate(shape, cartesian_, feed.active ? shape.rods() - 1 : -1, hessian, gradient)) return false;
+  hold(hessian, gradient);
+  return true;
+}
+
+/// Unknowns as displacements of the joints: at the sheath, the one motion along it moves both of its joints.
+void ChainProblem::to_cartesian(const std::vector<double>& direction) {
+  cartesian_.assign(direction.begin(), direction.end());
+  if (!feed.active) return;
+  const int n = shape.rods();
+  const double u = direction[at(4 * (n - 1))];
+  for (int c = 0; c < 3; ++c) {
+    cartesian_[at(4 * (n - 1) + c)] = u * feed.direction[c];
+    cartesian_[at(4 * n + c)] = -u * feed.direction[c];
+  }
 }
 
 double ChainProblem::try_step(const std::vector<double>& direction, double alpha) {
   const int n = shape.rods();
-  cartesian_.assign(direction.begin(), direction.end());
+  to_cartesian(direction);
   trial_feed_ = feed;
   if (feed.active) {
     const double u = direction[at(4 * (n - 1))];
     const double spin = direction[at(4 * (n - 1) + 3)];
-    for (int c = 0; c < 3; ++c) {
-      cartesian_[at(4 * (n - 1) + c)] = u * feed.direction[c];
-      cartesian_[at(4 * n + c)] = -u * feed.direction[c];
-    }
     trial_feed_.inserted_mm += alpha * u;
     trial_feed_.stretch_mm -= alpha * u;
     trial_feed_.twist_rad -= alpha * spin;

@@ -66,6 +66,8 @@ class ChainProblem final : public solve::Problem {
 
   [[nodiscard]] int unknowns() const override { return 4 * (shape.rods() + 1); }
   double linearise(math::BandMatrix& hessian, std::vector<double>& gradient) override;
+  bool anticipate(const std::vector<double>& direction, math::BandMatrix& hessian,
+                  std::vector<double>& gradient) override;
   double try_step(const std::vector<double>& direction, double alpha) override;
   void accept_step() override;
   [[nodiscard]] solve::ForceScales scales() const override { return scales_; }
@@ -84,6 +86,8 @@ class ChainProblem final : public solve::Problem {
   double add_loads(math::BandMatrix& hessian, std::vector<double>& gradient) const;
   double add_feed(math::BandMatrix& hessian, std::vector<double>& gradient);
   void onto_sheath_line(math::BandMatrix& hessian, std::vector<double>& gradient) const;
+  void hold(math::BandMatrix& hessian, std::vector<double>& gradient) const;
+  void to_cartesian(const std::vector<double>& direction);
   void measure_scales();
 
   rod::ChainShape trial_;

@@ -11,12 +11,16 @@ constexpr double kFirstWeight = 1e-4;   // N/mm: the lateral stiffness of a soft
 constexpr double kLargestWeight = 1e8;  // stiffer than any rod along its axis: beyond it the matrix is broken
 constexpr double kArmijo = 1e-4;
 constexpr int kMaxHalvings = 30;
+constexpr int kMaxAnticipations = 6;
+constexpr double kCalm_mm = 0.2;  // lagged forces are renewed once steps are this short: before, they mean nothing
+constexpr double kPoorStep = 0.3;          // a line search that ends below this share says: the model was bad, trust less
+constexpr double kSmallestTrust_mm = 0.05;
 
 }  // namespace
 
 void Newton::reserve(int unknowns) {
   hessian_.reserve(unknowns);
-  for (auto* v : {&gradient_, &direction_, &shift_}) v->reserve(static_cast<std::size_t>(unknowns));
+  for (auto* v : {&gradient_, &model_gradient_, &direction_, &shift_}) v->reserve(static_cast<std::size_t>(unknowns));
 }
 
 Newton::Norms Newton::norms(const std::vector<double>& v) {
@@ -45,10 +49,39 @@ int Newton::inertia(Problem& problem) {
   return factorise(0.0);
 }
 
-bool Newton::search_line(Problem& problem, const NewtonSpec& spec, double merit, SolveReport& report) {
+/// Solves with the last factorisation; anticipated contacts are added and the model is solved again.
+void Newton::find_direction(Problem& problem, double lambda, SolveReport& report) {
+  for (int round = 0;; ++round) {
+    for (std::size_t i = 0; i < direction_.size(); ++i) direction_[i] = -model_gradient_[i];
+    hessian_.solve(direction_);
+    if (round == kMaxAnticipations || !problem.anticipate(direction_, hessian_, model_gradient_)) return;
+    ++report.factorisations;
+    factorise(lambda);
+  }
+}
+
+/// Raises the proximal weight until the matrix is positive definite and the step no longer than the trust radius.
+bool Newton::restrict_direction(Problem& problem, double trust_mm, const NewtonSpec& spec, SolveReport& report) {
+  double lambda = std::max(0.1 * last_weight_, spec.proximal_scale * kFirstWeight);
+  for (; lambda < kLargestWeight; lambda *= 10.0) {
+    ++report.factorisations;
+    if (factorise(lambda) > 0) continue;
+    find_direction(problem, lambda, report);
+    if (!(norms(direction_).position > trust_mm)) break;
+  }
+  last_weight_ = lambda;
+  return lambda < kLargestWeight;
+}
+
+double Newton::slope() const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < gradient_.size(); ++i) sum += gradient_[i] * direction_[i];
+  return sum;
+}
+
+double Newton::search_line(Problem& problem, const NewtonSpec& spec, double merit, SolveReport& report) {
   const Norms step = norms(direction_);
-  double slope = 0.0;
-  for (std::size_t i = 0; i < gradient_.size(); ++i) slope += gradient_[i] * direction_[i];
+  const double descent = slope();
   double alpha = 1.0;
   if (step.position > spec.max_step_mm) alpha = spec.max_step_mm / step.position;
   if (step.turn * alpha > spec.max_turn_rad) alpha = spec.max_turn_rad / step.turn;
@@ -56,46 +89,42 @@ bool Newton::search_line(Problem& problem, const NewtonSpec& spec, double merit,
   const double rounding = 1e-13 * (std::abs(merit) + 1.0);
   for (int halving = 0; halving < kMaxHalvings; ++halving) {
     const double trial = problem.try_step(direction_, alpha);
-    if (trial <= merit + kArmijo * alpha * slope + rounding) {
+    if (trial <= merit + kArmijo * alpha * descent + rounding) {
       problem.accept_step();
       report.merit_mj = trial;
-      return true;
+      return alpha;
     }
     alpha *= 0.5;
-    if (-alpha * slope < rounding * 1e-3) break;
+    if (-alpha * descent < rounding * 1e-3) break;
   }
-  return false;
+  return 0.0;
 }
 
 SolveReport Newton::minimise(Problem& problem, const NewtonSpec& spec) {
   const int n = problem.unknowns();
   hessian_.resize(n);
-  for (auto* v : {&gradient_, &direction_, &shift_}) v->resize(static_cast<std::size_t>(n));
+  for (auto* v : {&gradient_, &model_gradient_, &direction_, &shift_}) v->resize(static_cast<std::size_t>(n));
   SolveReport report;
-  double last_weight = 0.0;
+  double trust_mm = spec.max_step_mm;
+  last_weight_ = 0.0;
   for (;; ++report.iterations) {
-    if (problem.lag_error() > 0.5 * spec.lag_tolerance) problem.renew_lagged();
+    const bool calm = report.iterations > 0 && report.correction_mm <= kCalm_mm;
+    if (calm && problem.lag_error() > 0.5 * spec.lag_tolerance) problem.renew_lagged();
     hessian_.set_zero();
     std::fill(gradient_.begin(), gradient_.end(), 0.0);
     report.merit_mj = problem.linearise(hessian_, gradient_);
 
-    double lambda = 0.0;
     ++report.factorisations;
     const bool definite = factorise(0.0) == 0;
-    if (!definite) {
+    model_gradient_ = gradient_;
+    if (definite) find_direction(problem, 0.0, report);
+    if (!definite || norms(direction_).position > trust_mm) {
       ++report.regularised_iterations;
-      lambda = std::max(0.1 * last_weight, spec.proximal_scale * kFirstWeight);
-      while (++report.factorisations, factorise(lambda) > 0) {
-        lambda *= 10.0;
-        if (!(lambda < kLargestWeight)) {
-          report.termination = Termination::left_domain;
-          return report;
-        }
+      if (!restrict_direction(problem, trust_mm, spec, report)) {
+        report.termination = Termination::left_domain;
+        return report;
       }
-      last_weight = lambda;
     }
-    for (std::size_t i = 0; i < gradient_.size(); ++i) direction_[i] = -gradient_[i];
-    hessian_.solve(direction_);
 
     const Norms correction = norms(direction_);
     const Norms residual = norms(gradient_);
@@ -110,9 +139,10 @@ SolveReport Newton::minimise(Problem& problem, const NewtonSpec& spec) {
       report.termination = Termination::left_domain;
       return report;
     }
+    const bool full = definite && correction.position <= trust_mm;
     const bool small_residual = residual.position <= spec.force_tolerance * scale.force_n + scale.rounding_n + spec.force_floor_n &&
                                 residual.turn <= spec.force_tolerance * scale.moment_n_mm + spec.moment_floor_n_mm;
-    if (definite && small_residual && correction.position <= spec.correction_tolerance_mm &&
+    if (full && small_residual && correction.position <= spec.correction_tolerance_mm &&
         correction.turn <= spec.correction_tolerance_rad && problem.lag_error() <= spec.lag_tolerance) {
       report.termination = Termination::converged;
       return report;
@@ -121,10 +151,23 @@ SolveReport Newton::minimise(Problem& problem, const NewtonSpec& spec) {
       report.termination = Termination::iteration_limit;
       return report;
     }
-    if (!search_line(problem, spec, report.merit_mj, report)) {
+    double alpha = slope() < 0.0 ? search_line(problem, spec, report.merit_mj, report) : 0.0;
+    if (alpha == 0.0 && definite) {
+      // The anticipated contacts misled: once more without.
+      hessian_.set_zero();
+      std::fill(gradient_.begin(), gradient_.end(), 0.0);
+      problem.linearise(hessian_, gradient_);
+      factorise(0.0);
+      for (std::size_t i = 0; i < direction_.size(); ++i) direction_[i] = -gradient_[i];
+      hessian_.solve(direction_);
+      alpha = search_line(problem, spec, report.merit_mj, report);
+    }
+    if (alpha == 0.0) {
       report.termination = Termination::stalled;
       return report;
     }
+    trust_mm = alpha < kPoorStep ? std::max(kSmallestTrust_mm, 2.0 * alpha * correction.position)
+                                 : std::min(spec.max_step_mm, 4.0 * trust_mm);
     if (!problem.inside_region()) {
       report.termination = Termination::left_domain;
       return report;

@@ -25,6 +25,10 @@ class Problem {
   [[nodiscard]] virtual int unknowns() const = 0;
   /// Merit, gradient and Hessian at the base state; fixed unknowns have zero gradient and an identity row.
   virtual double linearise(math::BandMatrix& hessian, std::vector<double>& gradient) = 0;
+  /// Changes the quadratic model, given where it leads: adds what the derivatives at the base state do not see, such as a wall
+  /// that `direction` would run into. Returns false when nothing is to be added; then the step is taken.
+  virtual bool anticipate(const std::vector<double>& direction, math::BandMatrix& hessian,
+                          std::vector<double>& gradient) = 0;
   /// Merit at the trial state base ⊕ α·direction; +infinity when there is none.
   virtual double try_step(const std::vector<double>& direction, double alpha) = 0;
   /// The last trial state becomes the base state.
@@ -56,11 +60,14 @@ struct NewtonSpec {
 ///
 ///   solve (H + λ W) d = −g,  state ← state ⊕ α d
 ///
-/// λ      0 while H is positive definite (inertia of the band LDLᵀ); else the smallest tried value that makes it
-///        so. It is the Hessian of a proximal term about the *current* iterate, so it guides the path through a snap and
-///        has no force of its own at the end: nothing to iterate away, no lag.
+/// λ      0 while H is positive definite (inertia of the band LDLᵀ) and d within the trust radius; else the first of a
+///        rising series that makes it so. It is the Hessian of a proximal term about the *current* iterate: it guides the
+///        path through a snap and has no force of its own at the end, nothing to iterate away, no lag.
 /// W      1 N/mm for positions and 1 N·mm for turns.
-/// α      from min(1, step limits), halved until the merit has decreased by 1e-4 of the linear prediction (Armijo).
+/// Model  before a step is taken, contacts that it would close are added to the model and it is solved again: an active
+///        set within the iteration. Without it a line search stops at the first wall.
+/// Trust  max_step_mm at first; twice the step taken after a line search that went badly, larger again after good ones.
+/// α      from min(1, turn limit), halved until the merit has decreased by 1e-4 of the linear prediction (Armijo).
 /// Stops  converged when, with λ = 0:  |d| ≤ correction tolerances,  |g| ≤ force_tolerance · scale + rounding + floor  for
 ///        forces and moments, and the lagged quantities are within lag_tolerance of their present values.
 class Newton {
@@ -76,10 +83,16 @@ class Newton {
   };
   [[nodiscard]] static Norms norms(const std::vector<double>& v);
   int factorise(double lambda);
-  bool search_line(Problem& problem, const NewtonSpec& spec, double merit, SolveReport& report);
+  void find_direction(Problem& problem, double lambda, SolveReport& report);
+  bool restrict_direction(Problem& problem, double trust_mm, const NewtonSpec& spec, SolveReport& report);
+  /// Change of the merit per unit step, to first order.
+  [[nodiscard]] double slope() const;
+  /// The step taken, 0 when none decreases the merit.
+  double search_line(Problem& problem, const NewtonSpec& spec, double merit, SolveReport& report);
 
   math::BandMatrix hessian_;
-  std::vector<double> gradient_, direction_, shift_, empty_;
+  std::vector<double> gradient_, model_gradient_, direction_, shift_, empty_;
+  double last_weight_ = 0.0;
 };
 
 }  // namespace endowire::solve
