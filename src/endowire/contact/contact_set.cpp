@@ -14,6 +14,8 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Below this total normal force nothing rubs: the weight of a centimetre of wire.
 constexpr double kRubbingFloor_n = 1e-4;
+/// A sample on the wall that moved less cannot have passed one: its axis keeps a radius away.
+constexpr double kShortMove_mm = 0.1;
 constexpr int kMaxSamplesPerRod = 16;
 constexpr double kMinShare_mm = 0.25;
 
@@ -77,6 +79,10 @@ void scatter(const Sample& s, const Eigen::Vector4d& g, const Eigen::Matrix4d& h
   hessian.lower(first + 3, first + 3) += h(3, 3);
 }
 
+bool reachable(const vessel::Field& field, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  return (reachable_point_mm(field, from, to) - to).norm() < 1e-9;
+}
+
 FrictionLaw friction_of(const Sample& s) { return {s.stick_stiffness_n_per_mm, s.friction * s.lagged_normal_n}; }
 
 }  // namespace
@@ -124,10 +130,11 @@ void ContactSet::place(const rod::MaterialLine& line, const rod::ChainMaterial& 
   }
 }
 
-void ContactSet::detect(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec) {
+void ContactSet::detect(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec, double share) {
   models_since_detection_ = 0;
   for (Sample& s : samples_) {
-    s.detected_at_mm = reachable_point_mm(field, s.detected_at_mm, s.position_mm(shape));
+    const Eigen::Vector3d target = s.detected_at_mm + share * (s.position_mm(shape) - s.detected_at_mm);
+    s.detected_at_mm = slid_point_mm(field, s.detected_at_mm, target, s.radius_mm);
     const Eigen::Vector3d tangent = tangent_at(shape, s);
     find_local_walls(field, spec, tangent, s);
     if (s.walls == 0) continue;
@@ -255,8 +262,9 @@ Verification ContactSet::verify(const rod::ChainShape& shape, const vessel::Fiel
     const Sample& s = samples_[i];
     const Eigen::Vector3d x = s.position_mm(shape);
     const Eigen::Vector3d u = x - s.detected_at_mm;
-    // A sample without walls that stayed within its clearance cannot touch anything.
-    if (s.walls == 0 && u.norm() < s.clearance_mm) continue;
+    // Within its clearance a sample cannot have touched anything, nor passed a wall.
+    if (u.norm() < s.clearance_mm) continue;
+    if (u.norm() > kShortMove_mm && !reachable(field, s.detected_at_mm, x)) return {HUGE_VAL, static_cast<int>(i)};
     double predicted = HUGE_VAL;
     for (int k = 0; k < s.walls; ++k) predicted = std::min(predicted, local_height_mm(s.wall[at(k)], u));
     const double actual = field.at(x).distance_mm;

@@ -92,7 +92,9 @@ class ContactSet {
   void clear() { samples_.clear(); }
 
   /// Detection: the walls around every sample at its place in `shape`, reached on a path that crosses no wall.
-  void detect(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec);
+  /// @param share  of the way from the place of the last detection; less than 1 bisects when two detections contradict
+  ///               each other, as on the two sides of a ridge
+  void detect(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec, double share = 1.0);
 
   /// Energy of wall and friction (with lagged normal forces); updates the samples' normal forces.
   [[nodiscard]] double energy_mj(const rod::ChainShape& shape);

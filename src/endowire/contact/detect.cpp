@@ -88,6 +88,23 @@ Eigen::Vector3d reachable_point_mm(const vessel::Field& field, const Eigen::Vect
   return length > 0.0 ? Eigen::Vector3d(from_mm + travelled / length * (to_mm - from_mm)) : from_mm;
 }
 
+Eigen::Vector3d slid_point_mm(const vessel::Field& field, const Eigen::Vector3d& from_mm, const Eigen::Vector3d& to_mm,
+                              double radius_mm) {
+  Eigen::Vector3d at = reachable_point_mm(field, from_mm, to_mm);
+  for (int slide = 0; slide < 2; ++slide) {
+    Eigen::Vector3d left = to_mm - at;
+    if (left.norm() < kStop_mm) return at;
+    const vessel::WallDistance wall = field.at(at);
+    const double slope = wall.gradient.norm();
+    if (!(slope > 0.5)) return at;
+    const Eigen::Vector3d n = wall.gradient / slope;
+    at += std::max(0.0, radius_mm - wall.distance_mm) * n;
+    left -= n * n.dot(left);
+    at = reachable_point_mm(field, at, at + left);
+  }
+  return at;
+}
+
 void find_local_walls(const vessel::Field& field, const ContactSpec& spec, const Eigen::Vector3d& tangent,
                       Sample& sample) {
   Eigen::Vector3d& q = sample.detected_at_mm;

@@ -8,6 +8,11 @@ namespace endowire::contact {
 [[nodiscard]] Eigen::Vector3d reachable_point_mm(const vessel::Field& field, const Eigen::Vector3d& from_mm,
                                                  const Eigen::Vector3d& to_mm);
 
+/// Where a point of a wire of this radius comes to that is pushed along a straight path: at a wall it goes on along the wall.
+/// It never passes one.
+[[nodiscard]] Eigen::Vector3d slid_point_mm(const vessel::Field& field, const Eigen::Vector3d& from_mm,
+                                            const Eigen::Vector3d& to_mm, double radius_mm);
+
 /// Finds up to three local walls around sample.detected_at_mm, which must be set and lie in the lumen; where that is nearer to
 /// the wall than the wire's radius, it is lifted to the radius first.
 ///

@@ -26,9 +26,13 @@ constexpr double kMaxBias_rad = 0.15;
 /// A joint that moves this far from its prediction within one step has snapped.
 constexpr double kSnap_mm = 1.5;
 /// Local walls hold this far around the place of detection; a state beyond is detected anew.
-constexpr double kRegion_mm = 1.0;
+constexpr double kRegion_mm = 2.5;
+/// Longest motion of a joint in one Newton iteration: local walls are believed about as far.
+constexpr double kMaxStep_mm = 1.0;
 /// Detections within one sub-step: a snap crosses the lumen in pieces of kRegion_mm.
 constexpr int kMaxDetections = 40;
+/// From this detection of a sub-step on, places of detection are bisected.
+constexpr int kBisectFrom = 3;
 constexpr double kStandardGravity_floor = 1e-12;
 
 [[noreturn]] void refuse(const std::string& text) { throw base::InputError(text); }
@@ -115,6 +119,7 @@ Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrume
   newton_spec_.force_tolerance = solver.force_tolerance;
   newton_spec_.proximal_scale = solver.proximal_scale;
   newton_spec_.max_iterations = solver.max_iterations;
+  newton_spec_.max_step_mm = kMaxStep_mm;
 
   grid_ = uniform_grid(line_, solver.rod_length_mm, kMaxBias_rad);
   gravity_m_per_s2_ = spec_.gravity_m_per_s2.norm();
@@ -379,7 +384,7 @@ bool Simulation::Impl::advance_once(const Command& command) {
 /// Minimises; detects anew where the solution left the region of the walls that one detection had seen.
 bool Simulation::Impl::settle() {
   for (int round = 0; round < kMaxDetections; ++round) {
-    problem_.contact.detect(problem_.shape, *field_, contact_spec_);
+    problem_.contact.detect(problem_.shape, *field_, contact_spec_, round < kBisectFrom ? 1.0 : 0.5);
     ++report_.detections;
     report_.solve = newton_.minimise(problem_, newton_spec_);
     report_.newton_iterations += report_.solve.iterations;
