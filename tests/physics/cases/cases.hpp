@@ -1,0 +1,27 @@
+#pragma once
+
+#include "support/check.hpp"
+
+/// The physics that the simulator is held against, each case a function that runs it and returns our numbers beside the closed
+/// form. Tests assert them; the program write_validation prints them to docs/validation.md.
+namespace endowire::test {
+
+/// Rods of the cases of statics.
+inline constexpr int kRods = 100;
+
+[[nodiscard]] Checks tip_loaded_cantilever(int rods);   // V1
+[[nodiscard]] Checks self_weight_cantilever(int rods);  // V2
+[[nodiscard]] Checks roll_up(int rods);                 // V3
+[[nodiscard]] Checks euler_column(int rods);            // V4
+[[nodiscard]] Checks buckled_column(int rods);          // V5
+[[nodiscard]] Checks whip_on_a_given_curve(int rods);   // V8
+[[nodiscard]] Checks whip_in_a_tube();                  // V8
+[[nodiscard]] Checks capstan();                         // V10
+[[nodiscard]] Checks insertion_into_a_bend();           // V11
+[[nodiscard]] Checks curved_tip_at_a_wall();            // V12
+[[nodiscard]] Checks three_point_bend(int rods);        // V13
+
+/// All of them, in this order: the table.
+[[nodiscard]] Checks all_checks();
+
+}  // namespace endowire::test

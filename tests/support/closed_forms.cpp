@@ -1,0 +1,105 @@
+#include "support/closed_forms.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace endowire::test {
+
+namespace {
+
+constexpr int kSteps = 4000;
+
+/// State of a curve that is followed from the tip: angle, its derivative, and the two end coordinates.
+struct Curve {
+  double angle, slope, along, across;
+};
+
+Curve moved(const Curve& a, double h, const Curve& rate) {
+  return {a.angle + h * rate.angle, a.slope + h * rate.slope, a.along + h * rate.along,
+          a.across + h * rate.across};
+}
+
+/// Runge–Kutta over a unit length: angle'' = second(s, angle).
+template <typename Second>
+Curve follow(double tip_angle, Second second) {
+  Curve y{tip_angle, 0.0, 0.0, 0.0};
+  const double h = 1.0 / kSteps;
+  const auto rate = [&](double s, const Curve& c) {
+    return Curve{c.slope, second(s, c.angle), std::cos(c.angle), std::sin(c.angle)};
+  };
+  for (int i = 0; i < kSteps; ++i) {
+    const double s = i * h;
+    const Curve a = rate(s, y);
+    const Curve b = rate(s + 0.5 * h, moved(y, 0.5 * h, a));
+    const Curve c = rate(s + 0.5 * h, moved(y, 0.5 * h, b));
+    const Curve d = rate(s + h, moved(y, h, c));
+    for (const auto& [part, weight] : {std::pair{&a, 1.0}, {&b, 2.0}, {&c, 2.0}, {&d, 1.0}}) {
+      y = moved(y, weight * h / 6.0, *part);
+    }
+  }
+  return y;
+}
+
+/// The root of an increasing function.
+template <typename Function>
+double root(double low, double high, Function f) {
+  constexpr int kHalvings = 60;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (f(middle) < 0.0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+template <typename Load>
+ElasticaEnd cantilever(Load load) {
+  // Followed from the tip, the angle falls to that of the clamp; it grows with the tip's angle up to the first equilibrium.
+  const auto second = [&](double s, double angle) { return -load(s) * std::cos(angle); };
+  const double tip = root(0.0, 0.5 * std::numbers::pi, [&](double a) { return follow(a, second).angle; });
+  const Curve end = follow(tip, second);
+  return {tip, end.across, 1.0 - end.along};
+}
+
+}  // namespace
+
+ElasticaEnd tip_loaded_elastica(double alpha) {
+  return cantilever([=](double) { return alpha; });
+}
+
+ElasticaEnd self_weight_elastica(double gamma) {
+  return cantilever([=](double s) { return gamma * s; });
+}
+
+PostBuckling post_buckling(double end_angle_rad) {
+  // K and E by the arithmetic–geometric mean.
+  const double k = std::sin(0.5 * end_angle_rad);
+  double a = 1.0;
+  double b = std::sqrt(1.0 - k * k);
+  double c = k;
+  double sum = 0.5 * c * c;
+  for (double weight = 1.0; std::abs(c) > 1e-15; weight *= 2.0) {
+    const double mean = 0.5 * (a + b);
+    c = 0.5 * (a - b);
+    b = std::sqrt(a * b);
+    a = mean;
+    sum += weight * c * c;
+  }
+  const double first = std::numbers::pi / (2.0 * a);
+  const double second = first * (1.0 - sum);
+  const double ratio = 2.0 * first / std::numbers::pi;
+  return {ratio * ratio, 2.0 * second / first - 1.0, k / first};
+}
+
+double whip_hand_angle_rad(double lambda, double tip_angle_rad) {
+  return follow(tip_angle_rad, [=](double, double angle) { return lambda * lambda * std::sin(angle); }).angle;
+}
+
+double whip_snap_angle_rad(double lambda) {
+  constexpr double kDifference = 1e-5;
+  const double tip = root(0.0, std::numbers::pi, [=](double a) {
+    return whip_hand_angle_rad(lambda, a - kDifference) - whip_hand_angle_rad(lambda, a + kDifference);
+  });
+  return whip_hand_angle_rad(lambda, tip);
+}
+
+}  // namespace endowire::test

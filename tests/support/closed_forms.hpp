@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+namespace endowire::test {
+
+/// Shape of a cantilever's end, as shares of its length.
+struct ElasticaEnd {
+  double tip_angle_rad = 0.0;
+  double deflection = 0.0;  ///< δ/L
+  double shortening = 0.0;  ///< 1 − x/L
+};
+
+/// Cantilever under a dead end force P normal to its unloaded axis, α = P L²/EI.
+///
+///   EI θ'' = −P cos θ,  θ = 0 at the clamp, θ' = 0 at the tip
+///
+/// Shooting from the tip with the fourth-order Runge–Kutta rule; ten digits.
+/// Source   [BisshoppDrucker1945]
+[[nodiscard]] ElasticaEnd tip_loaded_elastica(double alpha);
+
+/// Cantilever under its own weight w per length, γ = w L³/EI.
+///
+///   EI θ'' = −w s cos θ,  s from the tip
+///
+/// Source   [Rohde1953]
+[[nodiscard]] ElasticaEnd self_weight_elastica(double gamma);
+
+/// Column with pinned ends after buckling, by its end angle.
+struct PostBuckling {
+  double load = 0.0;        ///< P/Pcr, Pcr = π² EI/L²
+  double span = 0.0;        ///< distance of the ends over L
+  double deflection = 0.0;  ///< at the middle, over L
+};
+
+/// With k = sin(angle/2) and the complete elliptic integrals K, E:  P/Pcr = (2K/π)², span/L = 2E/K − 1, deflection/L = k/K.
+/// Source   [TimoshenkoGere1961 §2.7]
+[[nodiscard]] PostBuckling post_buckling(double end_angle_rad);
+
+/// Torque whip: a wire of rest curvature κ0 in a tube of curvature κt, α the angle between their planes.
+///
+///   GJ α'' = EI κ0 κt sin α,  α' = 0 at the tip,  Λ = L √(EI κ0 κt/GJ)
+///
+/// The angle at the hand for an angle at the tip, by the Runge–Kutta rule from the tip.
+/// Source   first variation of ∫ ½GJ α'² − EI κ0 κt cos α
+[[nodiscard]] double whip_hand_angle_rad(double lambda, double tip_angle_rad);
+
+/// Largest angle of the hand that has an equilibrium next to the path from rest: there the tip snaps. Λ > π/2.
+[[nodiscard]] double whip_snap_angle_rad(double lambda);
+
+}  // namespace endowire::test
