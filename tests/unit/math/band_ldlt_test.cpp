@@ -1,0 +1,175 @@
+#include "endowire/math/band_ldlt.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "support/frames.hpp"
+
+namespace endowire::math {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kWidth = BandMatrix::kHalfBandwidth;
+
+/// A random symmetric matrix of the band's width, and the same as a dense one.
+struct Pair {
+  BandMatrix band;
+  MatrixXd dense;
+};
+
+Pair random_band(int size, test::Random& random, double diagonal) {
+  Pair p;
+  p.band.resize(size);
+  p.band.set_zero();
+  p.dense = MatrixXd::Zero(size, size);
+  for (int r = 0; r < size; ++r) {
+    for (int c = std::max(0, r - kWidth); c <= r; ++c) {
+      const double value = random.normal() + (r == c ? diagonal : 0.0);
+      p.band.add(c, r, value);  // the upper place of the pair: add() must find the lower one
+      p.dense(r, c) = p.dense(c, r) = value;
+    }
+  }
+  return p;
+}
+
+std::vector<double> random_vector(int size, test::Random& random) {
+  std::vector<double> v(static_cast<std::size_t>(size));
+  for (double& x : v) x = random.normal();
+  return v;
+}
+
+Eigen::Map<const VectorXd> view(const std::vector<double>& v) {
+  return {v.data(), static_cast<Eigen::Index>(v.size())};
+}
+
+class Sizes : public testing::TestWithParam<int> {};
+
+// Breaks with any wrong index at the borders of the band or of the matrix, which the sizes around the width reach.
+TEST_P(Sizes, SolvesPositiveDefiniteSystemsAsEigenDoes) {
+  test::Random random(static_cast<std::uint64_t>(100 + GetParam()));
+  for (int trial = 0; trial < 10; ++trial) {
+    const int n = GetParam();
+    Pair p = random_band(n, random, 40.0);
+    ASSERT_GT(p.dense.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0.0);
+    EXPECT_EQ(p.band.factorise({}), 0);
+    std::vector<double> x = random_vector(n, random);
+    const VectorXd b = view(x);
+    p.band.solve(x);
+    const VectorXd exact = p.dense.llt().solve(b);
+    EXPECT_LT((view(x) - exact).norm(), 1e-12 * exact.norm());
+  }
+}
+
+// Breaks with a transposed or doubled entry.
+TEST_P(Sizes, MultipliesAsEigenDoes) {
+  test::Random random(static_cast<std::uint64_t>(200 + GetParam()));
+  Pair p = random_band(GetParam(), random, 0.0);
+  const std::vector<double> x = random_vector(GetParam(), random);
+  std::vector<double> y(x.size(), 77.0);  // must be overwritten
+  p.band.multiply(x, y);
+  const VectorXd exact = p.dense * view(x);
+  EXPECT_LT((view(y) - exact).norm(), 1e-13 * (1.0 + exact.norm()));
+}
+
+// Sylvester: pivots count the negative eigenvalues. Breaks when a pivot's sign is lost; Newton would then walk to a
+// saddle.
+TEST_P(Sizes, CountsNegativeEigenvalues) {
+  test::Random random(static_cast<std::uint64_t>(300 + GetParam()));
+  int indefinite = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    Pair p = random_band(GetParam(), random, random.uniform(-3.0, 12.0));
+    const VectorXd eigenvalues = p.dense.selfadjointView<Eigen::Lower>().eigenvalues();
+    const auto negative = static_cast<int>((eigenvalues.array() < 0.0).count());
+    EXPECT_EQ(p.band.factorise({}), negative);
+    indefinite += negative > 0 && negative < GetParam();
+    // The shift moves every eigenvalue: above the smallest one the matrix is definite, below it is not.
+    const double lowest = eigenvalues.minCoeff();
+    const std::vector<double> enough(static_cast<std::size_t>(GetParam()), std::abs(lowest) + 1e-3);
+    EXPECT_EQ(p.band.factorise(enough), 0);
+    if (lowest < -0.01) {
+      const std::vector<double> too_little(static_cast<std::size_t>(GetParam()), -lowest - 1e-3);
+      EXPECT_GE(p.band.factorise(too_little), 1);
+    }
+    EXPECT_EQ(p.band.factorise({}), negative) << "the shift changed the matrix itself";
+  }
+  if (GetParam() > 2) {
+    EXPECT_GT(indefinite, 3) << "the trials were all definite: nothing was tested";
+  }
+}
+
+// Breaks when the fixed unknown still couples on either side.
+TEST_P(Sizes, FixMakesAnIdentityRow) {
+  test::Random random(static_cast<std::uint64_t>(400 + GetParam()));
+  const int n = GetParam();
+  for (const int index : {0, n / 2, n - 1}) {
+    Pair p = random_band(n, random, 40.0);
+    p.band.fix(index);
+    p.dense.row(index).setZero();
+    p.dense.col(index).setZero();
+    p.dense(index, index) = 1.0;
+    EXPECT_EQ(p.band.factorise({}), 0);
+    std::vector<double> x = random_vector(n, random);
+    x[static_cast<std::size_t>(index)] = 0.0;
+    const VectorXd exact = p.dense.llt().solve(view(x));
+    p.band.solve(x);
+    EXPECT_EQ(x[static_cast<std::size_t>(index)], 0.0);
+    EXPECT_LT((view(x) - exact).norm(), 1e-12 * (1.0 + exact.norm()));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Sizes, testing::Values(1, 2, 4, 10, 11, 12, 44, 120));
+
+// A rod is a million times stiffer along its axis than across: the residual must stay at rounding of the large part.
+TEST(BandMatrix, SolvesBadlyScaledChains) {
+  test::Random random(500);
+  const int n = 80;
+  Pair p = random_band(n, random, 0.0);
+  p.band.set_zero();
+  p.dense.setZero();
+  for (int k = 0; k + 4 < n; ++k) {  // a chain of springs 1 … 1e6, anchored at one end
+    const double stiffness = k % 4 == 0 ? 1e6 : 1.0;
+    for (const auto& [r, c, sign] :
+         {std::tuple{k, k, 1.0}, std::tuple{k + 4, k + 4, 1.0}, std::tuple{k + 4, k, -1.0}}) {
+      p.band.add(r, c, sign * stiffness);
+      p.dense(r, c) += sign * stiffness;
+      if (r != c) p.dense(c, r) += sign * stiffness;
+    }
+  }
+  for (int k = 0; k < 4; ++k) {
+    p.band.add(k, k, 1.0);
+    p.dense(k, k) += 1.0;
+  }
+  EXPECT_EQ(p.band.factorise({}), 0);
+  std::vector<double> x = random_vector(n, random);
+  const VectorXd b = view(x);
+  p.band.solve(x);
+  EXPECT_LT((p.dense * view(x) - b).norm(), 1e-8 * b.norm());
+}
+
+// A singular matrix must never pass as positive definite. Breaks when a zero pivot counts as positive.
+TEST(BandMatrix, ASingularMatrixIsNotDefinite) {
+  BandMatrix m;
+  m.resize(8);
+  m.set_zero();
+  EXPECT_EQ(m.factorise({}), 8);
+  for (int i = 0; i < 8; ++i) m.add(i, i, 1.0);
+  m.add(3, 2, 1.0);  // rows 2 and 3 become equal
+  EXPECT_EQ(m.factorise({}), 1);
+}
+
+// Breaks when NaN compares as a positive pivot.
+TEST(BandMatrix, NotANumberIsNotDefinite) {
+  BandMatrix m;
+  m.resize(4);
+  m.set_zero();
+  for (int i = 0; i < 4; ++i) m.add(i, i, 1.0);
+  m.add(2, 1, std::nan(""));
+  EXPECT_GT(m.factorise({}), 0);
+}
+
+}  // namespace
+}  // namespace endowire::math
