@@ -41,12 +41,15 @@ double MaterialLine::over_sections(double from_mm, double to_mm, Integrand integ
   double sum = 0.0;
   for (std::size_t k = section_at(from_mm); k < start_mm_.size(); ++k) {
     const Section& section = instrument_.sections[k];
-    const bool last = k + 1 == start_mm_.size();
+    const double border = start_mm_[k] + section.length_mm;
     const double begin = std::max(from_mm, start_mm_[k]);
-    const double end = last ? to_mm : std::min(to_mm, start_mm_[k] + section.length_mm);
-    if (end <= begin) break;
+    const double end = std::min(to_mm, border);
     const auto fraction = [&](double arc) { return std::clamp((arc - start_mm_[k]) / section.length_mm, 0.0, 1.0); };
-    sum += integrand(section, end - begin, fraction(begin), fraction(end));
+    if (end > begin) sum += integrand(section, end - begin, fraction(begin), fraction(end));
+    if (to_mm <= border) break;
+    const bool last = k + 1 == start_mm_.size();
+    const double behind = to_mm - std::max(from_mm, border);  // behind the wire its last values hold
+    if (last && behind > 0.0) sum += integrand(section, behind, 1.0, 1.0);
   }
   return sum;
 }
