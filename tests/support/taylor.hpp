@@ -44,7 +44,7 @@ inline void expect_order(const std::function<double(double)>& remainder, double 
 inline void expect_taylor(const std::function<double(double)>& value, double slope, double curvature,
                           double scale, const std::string& what, double first_step = 0.1) {
   const double f = value(0.0);
-  const double noise = 2e-15 * (std::abs(f) + scale);
+  const double noise = 2e-14 * (std::abs(f) + scale);
   expect_order([&](double h) { return value(h) - f - h * slope; }, 2.0, noise, what + ", gradient",
                first_step);
   expect_order([&](double h) { return value(h) - f - h * slope - 0.5 * h * h * curvature; }, 3.0, noise,
