@@ -130,23 +130,38 @@ void ContactSet::place(const rod::MaterialLine& line, const rod::ChainMaterial& 
   }
 }
 
-void ContactSet::detect(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec, double share) {
+void ContactSet::detect_sample(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec,
+                               double share, Sample& s) const {
+  const Eigen::Vector3d target = s.detected_at_mm + share * (s.position_mm(shape) - s.detected_at_mm);
+  s.detected_at_mm = slid_point_mm(field, s.detected_at_mm, target, s.radius_mm);
+  s.wrong = false;
+  const Eigen::Vector3d tangent = tangent_at(shape, s);
+  find_local_walls(field, spec, tangent, s);
+  if (s.walls == 0) return;
+  s.stiffness_n_per_mm = wall_stiffness_n_per_mm2(spec.wall, s.lumen_radius_mm, s.radius_mm) * s.share_mm;
+  if (s.arc_mm == 0.0) s.stiffness_n_per_mm += tip_cap_stiffness_n_per_mm(spec.wall, s.radius_mm);
+  s.cap_mm = wall_cap_mm(spec.wall, s.lumen_radius_mm, field.tissue_to_next_lumen_mm(s.detected_at_mm));
+  s.stick_stiffness_n_per_mm = spec.stick_stiffness_ratio * s.stiffness_n_per_mm;
+  const Eigen::Vector3d& n = s.wall[0].normal;
+  const Eigen::Vector3d along = tangent - n * n.dot(tangent);
+  s.axial = along.norm() > 0.1 ? along.normalized() : math::any_normal(n);
+  s.around = n.cross(s.axial);
+}
+
+void ContactSet::detect(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec) {
   models_since_detection_ = 0;
+  for (Sample& s : samples_) detect_sample(shape, field, spec, 1.0, s);
+}
+
+int ContactSet::redetect(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec,
+                         double share) {
+  int detected = 0;
   for (Sample& s : samples_) {
-    const Eigen::Vector3d target = s.detected_at_mm + share * (s.position_mm(shape) - s.detected_at_mm);
-    s.detected_at_mm = slid_point_mm(field, s.detected_at_mm, target, s.radius_mm);
-    const Eigen::Vector3d tangent = tangent_at(shape, s);
-    find_local_walls(field, spec, tangent, s);
-    if (s.walls == 0) continue;
-    s.stiffness_n_per_mm = wall_stiffness_n_per_mm2(spec.wall, s.lumen_radius_mm, s.radius_mm) * s.share_mm;
-    if (s.arc_mm == 0.0) s.stiffness_n_per_mm += tip_cap_stiffness_n_per_mm(spec.wall, s.radius_mm);
-    s.cap_mm = wall_cap_mm(spec.wall, s.lumen_radius_mm, field.tissue_to_next_lumen_mm(s.detected_at_mm));
-    s.stick_stiffness_n_per_mm = spec.stick_stiffness_ratio * s.stiffness_n_per_mm;
-    const Eigen::Vector3d& n = s.wall[0].normal;
-    const Eigen::Vector3d along = tangent - n * n.dot(tangent);
-    s.axial = along.norm() > 0.1 ? along.normalized() : math::any_normal(n);
-    s.around = n.cross(s.axial);
+    if (!s.wrong) continue;
+    detect_sample(shape, field, spec, share, s);
+    ++detected;
   }
+  return detected;
 }
 
 double ContactSet::energy_mj(const rod::ChainShape& shape) {
@@ -256,23 +271,36 @@ void ContactSet::renew_lagged() {
   for (Sample& s : samples_) s.lagged_normal_n = s.normal_n;
 }
 
-Verification ContactSet::verify(const rod::ChainShape& shape, const vessel::Field& field) const {
-  Verification worst;
-  for (std::size_t i = 0; i < samples_.size(); ++i) {
-    const Sample& s = samples_[i];
+Verification ContactSet::verify(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec) {
+  Verification result;
+  for (Sample& s : samples_) {
+    s.wrong = false;
     const Eigen::Vector3d x = s.position_mm(shape);
     const Eigen::Vector3d u = x - s.detected_at_mm;
     // Within its clearance a sample cannot have touched anything, nor passed a wall.
     if (u.norm() < s.clearance_mm) continue;
-    if (u.norm() > kShortMove_mm && !reachable(field, s.detected_at_mm, x)) return {HUGE_VAL, static_cast<int>(i)};
-    double predicted = HUGE_VAL;
-    for (int k = 0; k < s.walls; ++k) predicted = std::min(predicted, local_height_mm(s.wall[at(k)], u));
-    const double actual = field.at(x).distance_mm;
-    if (std::min(actual, predicted) >= s.radius_mm) continue;
-    const double error = s.walls == 0 ? s.radius_mm - actual : std::abs(actual - predicted);
-    if (error > worst.gap_error_mm) worst = {error, static_cast<int>(i)};
+    double error = HUGE_VAL;
+    if (u.norm() < kShortMove_mm || reachable(field, s.detected_at_mm, x)) {
+      double predicted = HUGE_VAL;
+      for (int k = 0; k < s.walls; ++k) predicted = std::min(predicted, local_height_mm(s.wall[at(k)], u));
+      const double actual = field.at(x).distance_mm;
+      if (std::min(actual, predicted) >= s.radius_mm) continue;
+      error = s.walls == 0 ? s.radius_mm - actual : std::abs(actual - predicted);
+    }
+    result.gap_error_mm = std::max(result.gap_error_mm, error);
+    s.wrong = error > spec.gap_error_mm;
+    result.wrong_samples += s.wrong ? 1 : 0;
   }
-  return worst;
+  return result;
+}
+
+int ContactSet::mark_outside(const rod::ChainShape& shape, double region_mm) {
+  int outside = 0;
+  for (Sample& s : samples_) {
+    s.wrong = (s.position_mm(shape) - s.detected_at_mm).norm() > region_mm + std::max(0.0, s.clearance_mm);
+    outside += s.wrong ? 1 : 0;
+  }
+  return outside;
 }
 
 void ContactSet::remember(const rod::ChainShape& shape, FrictionMemory& memory) const {

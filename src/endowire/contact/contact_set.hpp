@@ -45,6 +45,7 @@ struct Sample {
   // At the state evaluated last.
   double normal_n = 0.0;
   double deflection_mm = 0.0;
+  bool wrong = false;                     ///< found by the last verification
   std::array<bool, kMaxWalls> in_model{};  ///< walls already in the present quadratic model as anticipated
 
   [[nodiscard]] Eigen::Vector3d position_mm(const rod::ChainShape& shape) const {
@@ -75,7 +76,7 @@ struct ContactSpec {
 /// Largest disagreement between the local walls and the field, where it matters for contact.
 struct Verification {
   double gap_error_mm = 0.0;
-  int sample = -1;
+  int wrong_samples = 0;
 };
 
 /// All samples of a wire: one detection, then energies and forces without further detection.
@@ -92,9 +93,12 @@ class ContactSet {
   void clear() { samples_.clear(); }
 
   /// Detection: the walls around every sample at its place in `shape`, reached on a path that crosses no wall.
+  void detect(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec);
+  /// Detection for the samples that the last verification found wrong, and no others: those keep the walls they have.
   /// @param share  of the way from the place of the last detection; less than 1 bisects when two detections contradict
   ///               each other, as on the two sides of a ridge
-  void detect(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec, double share = 1.0);
+  /// @return       number of samples detected
+  int redetect(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec, double share);
 
   /// Energy of wall and friction (with lagged normal forces); updates the samples' normal forces.
   [[nodiscard]] double energy_mj(const rod::ChainShape& shape);
@@ -112,8 +116,11 @@ class ContactSet {
   [[nodiscard]] double lag_error() const;
   void renew_lagged();
 
-  /// Compares the local walls with the field at the final shape.
-  [[nodiscard]] Verification verify(const rod::ChainShape& shape, const vessel::Field& field) const;
+  /// Compares the local walls with the field at a shape and marks the samples that are off by more than spec.gap_error_mm.
+  [[nodiscard]] Verification verify(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec);
+
+  /// Marks as wrong the samples that moved further from their place of detection than their clearance and `region_mm`.
+  int mark_outside(const rod::ChainShape& shape, double region_mm);
 
   /// Remembers friction at a converged shape.
   void remember(const rod::ChainShape& shape, FrictionMemory& memory) const;
@@ -123,6 +130,9 @@ class ContactSet {
   [[nodiscard]] Eigen::Vector3d friction_force_n(const rod::ChainShape& shape, std::size_t sample) const;
 
  private:
+  void detect_sample(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec, double share,
+                     Sample& sample) const;
+
   std::vector<Sample> samples_;
   int models_since_detection_ = 0;
 };

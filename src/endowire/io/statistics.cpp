@@ -56,7 +56,7 @@ void RunStatistics::add(double time_s, const sim::StepReport& report, double wal
     failed.push_back({steps, time_s, report.inserted_length_mm, report.solve});
   }
   if (report.splits > 0) ++split_steps;
-  detections += static_cast<std::uint64_t>(std::max(0, report.detections));
+  detections += report.detections;
   verifications += static_cast<std::uint64_t>(std::max(0, report.verifications));
   least_rods = steps == 1 ? report.rods : std::min(least_rods, report.rods);
   most_rods = std::max(most_rods, report.rods);

@@ -37,7 +37,7 @@ class RunStatistics {
   std::uint64_t steps = 0;
   std::uint64_t converged_steps = 0;
   std::uint64_t split_steps = 0;
-  std::uint64_t detections = 0;
+  double detections = 0.0;
   std::uint64_t verifications = 0;
   int least_rods = 0;
   int most_rods = 0;

@@ -38,7 +38,7 @@ double mean(const std::vector<double>& values) {
              : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-double per_step(std::uint64_t count, std::uint64_t steps) {
+double per_step(double count, std::uint64_t steps) {
   return steps == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(steps);
 }
 
@@ -132,7 +132,7 @@ std::string summary_json(const SceneFile& scene, const VesselMesh& mesh, const v
                   {"converged_steps", run.converged_steps},
                   {"split_steps", run.split_steps},
                   {"detections_per_step", finite(per_step(run.detections, run.steps))},
-                  {"verifications_per_step", finite(per_step(run.verifications, run.steps))},
+                  {"verifications_per_step", finite(per_step(static_cast<double>(run.verifications), run.steps))},
                   {"newton_iterations",
                    {{"mean", finite(mean(run.newton_iterations))},
                     {"p99", finite(percentile(run.newton_iterations, 0.99))},

@@ -381,19 +381,24 @@ bool Simulation::Impl::advance_once(const Command& command) {
   return settle();
 }
 
-/// Minimises; detects anew where the solution left the region of the walls that one detection had seen.
+/// Minimises; samples that left the region in which their walls hold are detected anew, the others are not.
 bool Simulation::Impl::settle() {
+  contact::ContactSet& contact = problem_.contact;
+  const double samples = std::max<double>(1.0, static_cast<double>(contact.samples().size()));
+  contact.detect(problem_.shape, *field_, contact_spec_);
+  report_.detections += 1.0;
   for (int round = 0; round < kMaxDetections; ++round) {
-    problem_.contact.detect(problem_.shape, *field_, contact_spec_, round < kBisectFrom ? 1.0 : 0.5);
-    ++report_.detections;
     report_.solve = newton_.minimise(problem_, newton_spec_);
     report_.newton_iterations += report_.solve.iterations;
-    if (report_.solve.converged()) {
-      ++report_.verifications;
-      if (problem_.contact.verify(problem_.shape, *field_).gap_error_mm <= contact_spec_.gap_error_mm) return true;
-    } else if (problem_.inside_region()) {
-      return false;
-    }
+    const bool left_region = !problem_.inside_region();
+    if (!report_.solve.converged() && !left_region) return false;
+    ++report_.verifications;
+    const contact::Verification check = contact.verify(problem_.shape, *field_, contact_spec_);
+    if (report_.solve.converged() && check.wrong_samples == 0) return true;
+    // A state on its way that no wall contradicts goes on from where it is.
+    if (check.wrong_samples == 0) contact.mark_outside(problem_.shape, problem_.region_mm);
+    report_.detections +=
+        contact.redetect(problem_.shape, *field_, contact_spec_, round < kBisectFrom ? 1.0 : 0.5) / samples;
   }
   report_.solve.termination = solve::Termination::left_domain;
   return false;

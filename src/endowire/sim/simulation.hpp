@@ -25,7 +25,8 @@ struct Event {
 struct StepReport {
   solve::SolveReport solve;          ///< of the last (or the failed) sub-step
   bool converged = false;            ///< every sub-step converged and was verified against the field
-  int detections = 0;                ///< collision detections of the whole wire
+  double detections = 0.0;           ///< collision detections, in units of the whole wire: a sample that is detected anew
+                                     ///< counts as its share of all samples
   int verifications = 0;             ///< checks of the final state against the field
   int splits = 0;                    ///< halvings of the command
   int newton_iterations = 0;         ///< over all sub-steps
