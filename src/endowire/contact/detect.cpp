@@ -24,6 +24,11 @@ constexpr double kCornerCurvature_radii = 2.0;
 /// A ridge sharper than this is as good as an edge.
 constexpr double kSharpestRidge_per_mm = 20.0;
 
+/// Convex walls from this curvature on are taken as ridges.
+constexpr double kRidge_per_mm = 0.02;
+/// Blend of a perfectly sharp edge: keeps Newton's Hessian finite.
+constexpr double kLeastBlend_mm = 0.005;
+
 struct PrincipalCurvatures {
   Eigen::Vector3d first, second;
   double first_per_mm, second_per_mm;
@@ -59,6 +64,25 @@ PrincipalCurvatures principal_curvatures(const vessel::Field& field, const Eigen
     std::swap(k.first_per_mm, k.second_per_mm);
   }
   return k;
+}
+
+/// Turns a convex wall into the two planes on both sides of its ridge, at the sample as high as the field says.
+void make_ridge(const vessel::Field& field, const Eigen::Vector3d& q, double height, double reach, LocalWall& wall) {
+  const Eigen::Vector3d offset = reach * wall.first;
+  const vessel::WallDistance one = field.at(q + offset);
+  const vessel::WallDistance other = field.at(q - offset);
+  const double one_height = one.distance_mm - one.gradient.dot(offset);
+  const double other_height = other.distance_mm + other.gradient.dot(offset);
+  const double twice_blend = 2.0 * height - one_height - other_height;
+  const double split = one_height - other_height;
+  // Not convex over the whole reach: the circle stays.
+  if (!(twice_blend >= std::abs(split)) || one.gradient.dot(other.gradient) < 0.0) return;
+  wall.ridge = true;
+  wall.normal = one.gradient;
+  wall.height_mm = one_height;
+  wall.other_normal = other.gradient;
+  wall.other_height_mm = other_height;
+  wall.blend_mm = std::max(kLeastBlend_mm, std::sqrt(twice_blend * twice_blend - split * split));
 }
 
 double predicted_height_mm(const Sample& sample, const Eigen::Vector3d& displacement) {
@@ -131,8 +155,9 @@ void find_local_walls(const vessel::Field& field, const ContactSpec& spec, const
       principal_curvatures(field, q - (nearest.distance_mm - height) * n, height, e1, e2, sample.lumen_radius_mm);
   sample.wall[0] = LocalWall{n, k.first, k.second, nearest.distance_mm, k.first_per_mm, k.second_per_mm};
   sample.walls = 1;
-
   const double reach = std::min(kProbe_mm, kProbe_radii * sample.lumen_radius_mm);
+  if (k.first_per_mm < -kRidge_per_mm) make_ridge(field, q, nearest.distance_mm, reach, sample.wall[0]);
+
   for (const double distance : {reach, 0.4 * reach}) {
     for (const Eigen::Vector3d& direction : {e1, Eigen::Vector3d(-e1), e2, Eigen::Vector3d(-e2)}) {
       if (sample.walls == Sample::kMaxWalls) break;

@@ -5,20 +5,23 @@
 
 namespace endowire::contact {
 
-/// The wall near one sample, as one detection saw it: an osculating surface.
+/// The wall near one sample, as one detection saw it.
 ///
 /// The height of the wire's axis over the wall follows the displacement u of the sample with no new detection; this is
-/// the force correction of the method.
+/// the force correction of the method. Two kinds of wall:
 ///
-///   a = h + n·u,  b₁ = e₁·u,  b₂ = e₂·u
-///   H(u) = (2a − κ₁(a² + b₁²)) / (1 + S) − ½ κ₂ b₂²,   S = √((1 − κ₁a)² + κ₁²b₁²)
+///   round   H(u) = (2a − κ₁(a² + b²)) / (1 + S) − ½ κ₂ c²,   S = √((1 − κ₁a)² + κ₁²b²)
+///   ridge   H(u) = ½ (a + a' + √((a − a')² + w²)) − ½ κ₂ c²
+///           a = h + n·u,  a' = h' + n'·u,  b = e₁·u,  c = e₂·u
 ///
-/// The first term is the exact distance to a circle of curvature κ₁ (κ₁ > 0: concave towards the lumen, a tube; κ₁ = 0: a
-/// plane; κ₁ < 0: a ridge, such as a carina or the rim of an ostium), so that a wire may run all round a tube; the
-/// second direction, usually that of the vessel's axis, is second order.
-/// Symbols    n normal into the lumen, e₁, e₂ directions of principal curvature, |κ₁| ≥ |κ₂|
+/// Round is the exact distance to a circle of curvature κ₁ ≥ 0, concave towards the lumen (a tube; a plane for κ₁ = 0), so
+/// that a wire may run all round a tube. A ridge (a carina, the rim of an ostium, the edge between two facets that stand out)
+/// is the greater of two planes, joined by a hyperbola that passes through the height at the sample: sharp and rounded
+/// ridges alike. The second direction, usually that of the vessel's axis, is second order.
+/// Symbols    n, n' normals into the lumen, h, h' heights of the two planes at the sample; e₁, e₂ directions of
+///            principal curvature, w blend of the ridge [mm]
 /// Source     ours; a single plane errs by u²/2R, 0.17 mm for u = 1 mm in a vessel of 3 mm.
-/// Accuracy   exact on planes, cylinders and along their axes; third order on smooth surfaces.
+/// Accuracy   exact on planes, cylinders and along their axes, and over edges to their blend; else third order.
 struct LocalWall {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
   Eigen::Vector3d first = Eigen::Vector3d::UnitY();
@@ -26,6 +29,10 @@ struct LocalWall {
   double height_mm = 0.0;
   double first_curvature_per_mm = 0.0;
   double second_curvature_per_mm = 0.0;
+  bool ridge = false;
+  Eigen::Vector3d other_normal = Eigen::Vector3d::UnitX();
+  double other_height_mm = 0.0;
+  double blend_mm = 0.0;
 };
 
 /// Height with its gradient and Hessian by the displacement.
