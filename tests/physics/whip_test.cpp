@@ -38,5 +38,9 @@ TEST(V8TorqueWhip, FollowsTheClosedFormOnAGivenCurve) {
   expect_to_hold(whip_on_a_given_curve(kRods));
 }
 
+TEST(V8TorqueWhip, FollowsTheClosedFormInATightTube) {
+  expect_to_hold(whip_in_a_tube());
+}
+
 }  // namespace
 }  // namespace endowire::test

@@ -90,16 +90,19 @@ PostBuckling post_buckling(double end_angle_rad) {
   return {ratio * ratio, 2.0 * second / first - 1.0, k / first};
 }
 
-double whip_hand_angle_rad(double lambda, double tip_angle_rad) {
-  return follow(tip_angle_rad, [=](double, double angle) { return lambda * lambda * std::sin(angle); }).angle;
+double whip_hand_angle_rad(double lambda, double tip_angle_rad, double straight) {
+  const Curve start =
+      follow(tip_angle_rad, [=](double, double angle) { return lambda * lambda * std::sin(angle); });
+  return start.angle + straight * start.slope;
 }
 
-double whip_snap_angle_rad(double lambda) {
+double whip_snap_angle_rad(double lambda, double straight) {
   constexpr double kDifference = 1e-5;
   const double tip = root(0.0, std::numbers::pi, [=](double a) {
-    return whip_hand_angle_rad(lambda, a - kDifference) - whip_hand_angle_rad(lambda, a + kDifference);
+    return whip_hand_angle_rad(lambda, a - kDifference, straight) -
+           whip_hand_angle_rad(lambda, a + kDifference, straight);
   });
-  return whip_hand_angle_rad(lambda, tip);
+  return whip_hand_angle_rad(lambda, tip, straight);
 }
 
 }  // namespace endowire::test

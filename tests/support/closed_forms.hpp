@@ -41,11 +41,12 @@ struct PostBuckling {
 ///
 ///   GJ α'' = EI κ0 κt sin α,  α' = 0 at the tip,  Λ = L √(EI κ0 κt/GJ)
 ///
-/// The angle at the hand for an angle at the tip, by the Runge–Kutta rule from the tip.
+/// The angle at the hand for an angle at the tip, by the Runge–Kutta rule from the tip. Between hand and curve there may be a
+/// straight piece, where α'' = 0; its length is given as a share of L.
 /// Source   first variation of ∫ ½GJ α'² − EI κ0 κt cos α
-[[nodiscard]] double whip_hand_angle_rad(double lambda, double tip_angle_rad);
+[[nodiscard]] double whip_hand_angle_rad(double lambda, double tip_angle_rad, double straight = 0.0);
 
 /// Largest angle of the hand that has an equilibrium next to the path from rest: there the tip snaps. Λ > π/2.
-[[nodiscard]] double whip_snap_angle_rad(double lambda);
+[[nodiscard]] double whip_snap_angle_rad(double lambda, double straight = 0.0);
 
 }  // namespace endowire::test
