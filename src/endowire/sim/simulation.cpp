@@ -26,11 +26,11 @@ constexpr double kMaxBias_rad = 0.15;
 /// A joint that moves this far from its prediction within one step has snapped.
 constexpr double kSnap_mm = 1.5;
 /// Local walls hold this far around the place of detection; a state beyond is detected anew.
-constexpr double kRegion_mm = 2.5;
+constexpr double kRegion_mm = 0.8;
 /// Longest motion of a joint in one Newton iteration: local walls are believed about as far.
-constexpr double kMaxStep_mm = 1.0;
+constexpr double kMaxStep_mm = 0.5;
 /// Detections within one sub-step: a snap crosses the lumen in pieces of kRegion_mm.
-constexpr int kMaxDetections = 40;
+constexpr int kMaxDetections = 100;
 /// From this detection of a sub-step on, places of detection are bisected.
 constexpr int kBisectFrom = 3;
 constexpr double kStandardGravity_floor = 1e-12;

@@ -15,6 +15,8 @@ constexpr int kMaxAnticipations = 6;
 constexpr double kCalm_mm = 0.2;  // lagged forces are renewed once steps are this short: before, they mean nothing
 constexpr double kPoorStep = 0.3;          // a line search that ends below this share says: the model was bad, trust less
 constexpr double kSmallestTrust_mm = 0.05;
+constexpr double kStraight = 0.8;           // a quadratic falls by half of its slope per full step, a straight line by all
+constexpr double kWorthExtending = 1e-9;    // relative decrease of the merit below which a step is never lengthened
 
 }  // namespace
 
@@ -79,6 +81,25 @@ double Newton::slope() const {
   return sum;
 }
 
+/// Lengthens a step along which the merit falls as a straight line: a tip that slides through a snap, whose contacts give
+/// way one by one, would otherwise creep at the pace of their stiffness.
+double Newton::extend_step(Problem& problem, const NewtonSpec& spec, double merit, double trial, double alpha,
+                           double descent, SolveReport& report) {
+  const double length = norms(direction_).position;
+  report.merit_mj = trial;
+  while (report.merit_mj <= merit + kStraight * alpha * descent && 2.0 * alpha * length <= spec.max_step_mm &&
+         -alpha * descent > kWorthExtending * (std::abs(merit) + 1.0)) {
+    const double further = problem.try_step(direction_, 2.0 * alpha);
+    if (!(further <= merit + kStraight * 2.0 * alpha * descent)) {
+      problem.try_step(direction_, alpha);
+      break;
+    }
+    alpha *= 2.0;
+    report.merit_mj = further;
+  }
+  return alpha;
+}
+
 double Newton::search_line(Problem& problem, const NewtonSpec& spec, double merit, SolveReport& report) {
   const Norms step = norms(direction_);
   const double descent = slope();
@@ -90,8 +111,8 @@ double Newton::search_line(Problem& problem, const NewtonSpec& spec, double meri
   for (int halving = 0; halving < kMaxHalvings; ++halving) {
     const double trial = problem.try_step(direction_, alpha);
     if (trial <= merit + kArmijo * alpha * descent + rounding) {
+      alpha = extend_step(problem, spec, merit, trial, alpha, descent, report);
       problem.accept_step();
-      report.merit_mj = trial;
       return alpha;
     }
     alpha *= 0.5;

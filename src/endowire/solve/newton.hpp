@@ -67,7 +67,8 @@ struct NewtonSpec {
 /// Model  before a step is taken, contacts that it would close are added to the model and it is solved again: an active
 ///        set within the iteration. Without it a line search stops at the first wall.
 /// Trust  max_step_mm at first; twice the step taken after a line search that went badly, larger again after good ones.
-/// α      from min(1, turn limit), halved until the merit has decreased by 1e-4 of the linear prediction (Armijo).
+/// α      from min(1, turn limit), halved until the merit has decreased by 1e-4 of the linear prediction (Armijo); doubled while the
+///        merit falls along it as a straight line.
 /// Stops  converged when, with λ = 0:  |d| ≤ correction tolerances,  |g| ≤ force_tolerance · scale + rounding + floor  for
 ///        forces and moments, and the lagged quantities are within lag_tolerance of their present values.
 class Newton {
@@ -87,6 +88,8 @@ class Newton {
   bool restrict_direction(Problem& problem, double trust_mm, const NewtonSpec& spec, SolveReport& report);
   /// Change of the merit per unit step, to first order.
   [[nodiscard]] double slope() const;
+  double extend_step(Problem& problem, const NewtonSpec& spec, double merit, double trial, double alpha, double descent,
+                     SolveReport& report);
   /// The step taken, 0 when none decreases the merit.
   double search_line(Problem& problem, const NewtonSpec& spec, double merit, SolveReport& report);
 
