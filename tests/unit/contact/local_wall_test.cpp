@@ -1,0 +1,96 @@
+#include "endowire/contact/local_wall.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/frames.hpp"
+#include "support/taylor.hpp"
+
+namespace endowire::contact {
+namespace {
+
+using Eigen::Vector3d;
+
+LocalWall wall_of(const rod::Frame& frame, double height, double first, double second) {
+  return {frame.col(0), frame.col(1), frame.col(2), height, first, second};
+}
+
+// Breaks with any wrong term in gradient or Hessian.
+TEST(LocalWall, TaylorSlopes) {
+  test::Random random(51);
+  const double curvatures[][2] = {{0.0, 0.0},  {0.3, 0.0},  {0.3, -0.05}, {-0.8, 0.0},
+                                  {-2.0, 0.4}, {1e-9, 0.0}, {0.2, 0.2},   {-20.0, 0.0}};
+  for (const auto& k : curvatures) {
+    for (int trial = 0; trial < 10; ++trial) {
+      const LocalWall wall = wall_of(random.frame(), random.uniform(0.1, 1.0), k[0], k[1]);
+      const Vector3d u = 0.2 * random.vector();
+      const Vector3d v = random.unit();
+      const LocalHeight h = local_height_derivatives(wall, u);
+      EXPECT_DOUBLE_EQ(h.value_mm, local_height_mm(wall, u));
+      EXPECT_GT(h.gradient.norm(), 0.5);
+      test::expect_taylor([&](double s) { return local_height_mm(wall, u + s * v); }, h.gradient.dot(v),
+                          v.dot(h.hessian * v), 1.0, "local wall", 0.01);
+    }
+  }
+}
+
+// Inside a tube the height over the wall is R − ρ, all the way round. Breaks with a parabola in place of the circle.
+TEST(LocalWall, IsExactOnACylinderFromInside) {
+  test::Random random(52);
+  for (int trial = 0; trial < 200; ++trial) {
+    const double radius = random.uniform(0.5, 10.0);
+    const rod::Frame frame = random.frame();  // normal, around, along the axis
+    const double height = random.uniform(0.05, 0.8) * radius;
+    const LocalWall wall = wall_of(frame, height, 1.0 / radius, 0.0);
+    const Vector3d u = 0.9 * radius * random.vector();
+    const Vector3d local = frame.transpose() * u;
+    // The axis lies R − height from the sample, along the normal.
+    const double rho = std::hypot(local[0] - (radius - height), local[1]);
+    EXPECT_NEAR(local_height_mm(wall, u), radius - rho, 1e-12 * radius);
+  }
+}
+
+// Over a ridge, such as a carina, it is ρ − R from outside. Breaks when the sign of κ is lost: a ghost wall.
+TEST(LocalWall, IsExactOnARidgeFromOutside) {
+  test::Random random(53);
+  for (int trial = 0; trial < 200; ++trial) {
+    const double radius = random.uniform(0.05, 3.0);
+    const rod::Frame frame = random.frame();
+    const double height = random.uniform(0.1, 1.0);
+    const LocalWall wall = wall_of(frame, height, -1.0 / radius, 0.0);
+    const Vector3d u = random.vector();
+    const Vector3d local = frame.transpose() * u;
+    const double rho = std::hypot(local[0] + radius + height, local[1]);
+    EXPECT_NEAR(local_height_mm(wall, u), rho - radius, 1e-12 * (1.0 + rho));
+  }
+}
+
+// The plane is the limit of small curvature, with no loss of digits on the way.
+TEST(LocalWall, PlaneIsTheLimit) {
+  test::Random random(54);
+  for (const double curvature : {0.0, 1e-15, -1e-15, 1e-12, 1e-9, -1e-9}) {
+    const rod::Frame frame = random.frame();
+    const LocalWall wall = wall_of(frame, 0.7, curvature, 0.0);
+    const Vector3d u = random.vector();
+    EXPECT_NEAR(local_height_mm(wall, u), 0.7 + frame.col(0).dot(u), 1e-15 + 20.0 * std::abs(curvature));
+    EXPECT_LT((local_height_derivatives(wall, u).gradient - frame.col(0)).norm(),
+              1e-14 + 20.0 * std::abs(curvature));
+  }
+}
+
+// On a sphere, whose curvature in the second direction is only of second order, the error is of third order.
+TEST(LocalWall, IsThirdOrderOnASphere) {
+  constexpr double radius = 4.0;
+  const rod::Frame frame = rod::Frame::Identity();
+  const LocalWall wall = wall_of(frame, 0.0, 1.0 / radius, 1.0 / radius);
+  const Vector3d v = Vector3d(0.3, 0.5, 0.8).normalized();
+  test::expect_order(
+      [&](double h) {
+        return local_height_mm(wall, h * v) - (radius - (h * v - Vector3d(radius, 0.0, 0.0)).norm());
+      },
+      3.0, 1e-15, "sphere", 0.5);
+}
+
+}  // namespace
+}  // namespace endowire::contact
