@@ -7,6 +7,9 @@
 namespace endowire::test {
 namespace {
 
+TEST(V10Capstan, PullsWithTheExponentialOfFrictionAndAngle) {
+  expect_to_hold(capstan());
+}
 TEST(V11Insertion, TakesTheForceThatBendingCosts) {
   expect_to_hold(insertion_into_a_bend());
 }

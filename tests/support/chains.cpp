@@ -60,16 +60,36 @@ void Chain::lay_straight() {
   problem.release_all();
 }
 
-void Chain::lay_along(const std::vector<Eigen::Vector3d>& joints_mm) {
+namespace {
+
+/// The frame of a rod that turned to another direction.
+rod::Frame transported(const rod::Frame& frame, const Eigen::Vector3d& tangent) {
+  rod::Frame result;
+  result.col(0) = math::normal_part(math::parallel_transport(frame.col(0), frame.col(2), tangent), tangent);
+  result.col(1) = tangent.cross(result.col(0));
+  result.col(2) = tangent;
+  return result;
+}
+
+}  // namespace
+
+void Chain::lay_untwisted(const std::vector<Eigen::Vector3d>& joints_mm) {
+  rod::ChainShape& shape = problem.shape;
+  shape.joints_mm = joints_mm;
+  const int n = shape.rods();
+  for (int i = n - 1; i >= 0; --i) {
+    const rod::Frame& from = shape.frames[at(i == n - 1 ? i : i + 1)];
+    shape.frames[at(i)] = transported(from, (joints_mm[at(i)] - joints_mm[at(i + 1)]).normalized());
+  }
+  std::fill(shape.twist_rad.begin(), shape.twist_rad.end(), 0.0);
+}
+
+void Chain::move_joints(const std::vector<Eigen::Vector3d>& joints_mm) {
   rod::ChainShape& shape = problem.shape;
   shape.joints_mm = joints_mm;
   for (int i = 0; i < shape.rods(); ++i) {
     rod::Frame& frame = shape.frames[at(i)];
-    const Eigen::Vector3d e = (joints_mm[at(i)] - joints_mm[at(i + 1)]).normalized();
-    const Eigen::Vector3d m1 = math::normal_part(math::parallel_transport(frame.col(0), frame.col(2), e), e);
-    frame.col(0) = m1;
-    frame.col(1) = e.cross(m1);
-    frame.col(2) = e;
+    frame = transported(frame, (joints_mm[at(i)] - joints_mm[at(i + 1)]).normalized());
   }
   for (int j = 1; j < shape.rods(); ++j) {
     shape.twist_rad[at(j)] =

@@ -21,8 +21,10 @@ struct Chain {
 
   /// Joint n at the origin, the tip along x; first directors along y. Nothing held but joint n.
   void lay_straight();
-  /// The rods take the directions of the new joints; frames are transported, spins kept, twists follow.
-  void lay_along(const std::vector<Eigen::Vector3d>& joints_mm);
+  /// Lays the chain on other joints, without twist: frames are transported along it, from that of the rod at the hand.
+  void lay_untwisted(const std::vector<Eigen::Vector3d>& joints_mm);
+  /// Moves the joints, by little: frames are transported in time, spins kept, twists follow.
+  void move_joints(const std::vector<Eigen::Vector3d>& joints_mm);
   /// Turns the rod about its axis.
   void spin(int rod, double angle_rad);
   /// Everything stays in the plane z = 0.

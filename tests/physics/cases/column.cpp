@@ -66,7 +66,7 @@ class Arch {
           joints[static_cast<std::size_t>(i + 1)] +
           chain_.rod_length_mm * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
     }
-    chain_.lay_along(joints);
+    chain_.lay_untwisted(joints);
     chain_.problem.hold_joint(0, false, true, true);
     chain_.keep_plane();
   }

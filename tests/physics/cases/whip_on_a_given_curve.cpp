@@ -43,7 +43,7 @@ class Whip {
       const double a = (rods - i) * angle;
       joints.emplace_back(kTubeRadius_mm * std::sin(a), kTubeRadius_mm * (1.0 - std::cos(a)), 0.0);
     }
-    chain_->lay_along(joints);
+    chain_->lay_untwisted(joints);
     for (int i = 0; i < rods; ++i) chain_->problem.hold_joint(i, true, true, true);
     chain_->problem.hold_spin(rods - 1);
   }
