@@ -45,6 +45,9 @@ Push push(double clearance_mm, double rod_mm, double wall_mpa) {
   spec.gravity_m_per_s2.setZero();
   spec.wall.modulus_mpa = wall_mpa;
   spec.solver.rod_length_mm = rod_mm;
+  spec.solver.correction_tolerance_mm =
+      1e-6;  // the figures are tabulated: their digits must not hang on the path
+  spec.solver.correction_tolerance_deg = 1e-5;
   sim::Simulation simulation(tube, wire, {Eigen::Vector3d(-kInlet_mm, 0.0, 0.0), Eigen::Vector3d::UnitX()},
                              spec);
 

@@ -62,6 +62,9 @@ Turning turn_in_bend(double lambda, double most_rad) {
   spec.gravity_m_per_s2.setZero();
   spec.wall.modulus_mpa = kStiff_mpa;
   spec.solver.rod_length_mm = kRod_mm;
+  spec.solver.correction_tolerance_mm =
+      1e-6;  // the figures are tabulated: their digits must not hang on the path
+  spec.solver.correction_tolerance_deg = 1e-5;
   const Eigen::Vector3d centre_mm(0.0, kTubeRadius_mm, 0.0);
   const auto tube = std::make_shared<vessel::BentTubeField>(Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(),
                                                             centre_mm, kTubeRadius_mm, kPi,

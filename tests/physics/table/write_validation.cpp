@@ -1,0 +1,29 @@
+// write_validation FILE: runs the cases of physics and writes their table; exit 1 when one misses its tolerance.
+#include <fstream>
+#include <iostream>
+
+#include "cases.hpp"
+#include "support/validation_table.hpp"
+
+int main(int argc, char** argv) {
+  using namespace endowire::test;
+  if (argc != 2) {
+    std::cerr << "usage: write_validation FILE\n";
+    return 2;
+  }
+  const Checks checks = all_checks();
+  bool all_hold = true;
+  for (const Check& c : checks) {
+    if (c.holds()) continue;
+    all_hold = false;
+    std::cerr << c.test << " " << c.quantity << ": error " << c.error() << ", allowed " << c.tolerance
+              << "\n";
+  }
+  std::ofstream file(argv[1], std::ios::binary);
+  file << validation_table(checks);
+  if (!file.flush()) {
+    std::cerr << argv[1] << ": cannot be written\n";
+    return 2;
+  }
+  return all_hold ? 0 : 1;
+}

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "support/check.hpp"
+
+namespace endowire::test {
+
+/// The text of docs/validation.md: one line for each check. Errors are printed to a hundredth of their tolerance and our values to
+/// the same place, so that the file does not depend on the compiler but for the last digit.
+[[nodiscard]] std::string validation_table(const Checks& checks);
+
+/// What is different between two tables but for one unit in the last printed digit of a number; empty when nothing is.
+[[nodiscard]] std::string table_difference(const std::string& committed, const std::string& generated);
+
+}  // namespace endowire::test
