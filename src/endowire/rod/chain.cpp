@@ -314,6 +314,9 @@ bool retract(const ChainShape& base, const std::vector<double>& direction, doubl
     out.frames[at(i)].col(2) = e;
     out.spin_rad[at(i)] = base.spin_rad[at(i)] + spin;
   }
+  // Those at the ends mean nothing, but they belong to the state and its hash.
+  out.twist_rad[0] = base.twist_rad[0];
+  out.twist_rad[at(rods)] = base.twist_rad[at(rods)];
   for (int j = 1; j < rods; ++j) {
     const double spun_tip = out.spin_rad[at(j - 1)] - base.spin_rad[at(j - 1)];
     const double spun_hand = out.spin_rad[at(j)] - base.spin_rad[at(j)];
