@@ -239,8 +239,9 @@ bool ContactSet::anticipate(const rod::ChainShape& shape, const std::vector<doub
       const bool closes = depth < kWallOnset_mm && depth - n.dot(motion) > kWallOnset_mm;
       const bool buried = models_since_detection_ == 1 && depth > kDeep * s.cap_mm;
       // A wall that others now keep the wire off leaves the model again: it would pull.
-      if ((closes || buried) == s.in_model[at(k)]) continue;
-      const double sign = s.in_model[at(k)] ? -1.0 : 1.0;
+      const bool in = s.in_model[at(k)] == Sample::InModel::anticipated;
+      if ((closes || buried) == in || s.in_model[at(k)] == Sample::InModel::dropped) continue;
+      const double sign = in ? -1.0 : 1.0;
       // The wall as a spring that also pulls, in place of what the model has of it.
       const WallResponse present = wall_response(s.stiffness_n_per_mm, s.cap_mm, depth);
       const double force = s.stiffness_n_per_mm * (depth - 0.5 * kWallOnset_mm) - present.force_n;
@@ -250,7 +251,7 @@ bool ContactSet::anticipate(const rod::ChainShape& shape, const std::vector<doub
       g.head<3>() = -sign * force * n;
       h.topLeftCorner<3, 3>() = sign * stiffness * n * n.transpose();
       scatter(s, g, h, s.rod + 1 == hand_joint ? 0.0 : 1.0, hessian, gradient);
-      s.in_model[at(k)] = !s.in_model[at(k)];
+      s.in_model[at(k)] = in ? Sample::InModel::dropped : Sample::InModel::anticipated;
       changed = true;
     }
   }

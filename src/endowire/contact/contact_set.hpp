@@ -46,7 +46,10 @@ struct Sample {
   double normal_n = 0.0;
   double deflection_mm = 0.0;
   bool wrong = false;                     ///< found by the last verification
-  std::array<bool, kMaxWalls> in_model{};  ///< walls already in the present quadratic model as anticipated
+  /// What the present quadratic model has of each wall: as its derivatives say, anticipated, or anticipated and dropped
+  /// again, which is final: no wall comes and goes within one model.
+  enum class InModel : char { derived, anticipated, dropped };
+  std::array<InModel, kMaxWalls> in_model{};
 
   [[nodiscard]] Eigen::Vector3d position_mm(const rod::ChainShape& shape) const {
     const auto i = static_cast<std::size_t>(rod);

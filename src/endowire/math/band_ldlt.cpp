@@ -17,54 +17,46 @@ void BandMatrix::fix(int index) {
 }
 
 int BandMatrix::factorise(const std::vector<double>& shift) {
+  std::copy(columns_.begin(), columns_.end(), factor_.begin());
   int not_positive = 0;
-  for (int r = 0; r < size_; ++r) {
-    const auto ur = static_cast<std::size_t>(r);
-    const Row& a = rows_[ur];
-    Row& f = factor_[ur];
-    const int first = std::max(0, r - kWidth);
-    // u_c = L(r,c)·D(c), row-oriented: u_c = a(r,c) − Σ_k u_k L(c,k).
-    for (int c = first; c < r; ++c) {
-      const Row& l = factor_[static_cast<std::size_t>(c)];
-      double sum = a[static_cast<std::size_t>(c - r + kWidth)];
-      for (int k = std::max(first, c - kWidth); k < c; ++k) {
-        sum -= f[static_cast<std::size_t>(k - r + kWidth)] * l[static_cast<std::size_t>(k - c + kWidth)];
-      }
-      f[static_cast<std::size_t>(c - r + kWidth)] = sum;
-    }
-    const double diagonal = a[kWidth] + (shift.empty() ? 0.0 : shift[ur]);
-    double pivot = diagonal;
-    for (int c = first; c < r; ++c) {
-      double& entry = f[static_cast<std::size_t>(c - r + kWidth)];
-      const double l = entry / pivots_[static_cast<std::size_t>(c)];
-      pivot -= entry * l;
-      entry = l;
-    }
-    if (!(pivot > kRelativePivot * std::abs(diagonal))) {
+  // Right-looking: each column, once final, is subtracted from the ten that follow. Entries beyond the matrix are zero.
+  for (int c = 0; c < size_; ++c) {
+    const auto uc = static_cast<std::size_t>(c);
+    Column& column = factor_[uc];
+    if (!shift.empty()) column[0] += shift[uc];
+    // What the columns before took off the diagonal; a pivot lost in its rounding is no pivot.
+    const double scale = std::abs(columns_[uc][0]) + (shift.empty() ? 0.0 : shift[uc]);
+    double pivot = column[0];
+    if (!(pivot > kRelativePivot * scale)) {
       ++not_positive;
-      if (!(std::abs(pivot) > kRelativePivot * std::abs(diagonal))) pivot = -kRelativePivot * (std::abs(diagonal) + 1e-300);
+      if (!(std::abs(pivot) > kRelativePivot * scale)) pivot = -kRelativePivot * (scale + 1e-300);
     }
-    pivots_[ur] = pivot;
+    const double inverse = 1.0 / pivot;
+    inverse_pivots_[uc] = inverse;
+    for (std::size_t i = 1; i <= kWidth; ++i) {
+      Column& next = factor_[uc + i];
+      const double l = column[i] * inverse;
+      for (std::size_t k = i; k <= kWidth; ++k) next[k - i] -= l * column[k];
+    }
+    for (std::size_t i = 1; i <= kWidth; ++i) column[i] *= inverse;
   }
   return not_positive;
 }
 
 void BandMatrix::solve(std::vector<double>& x) const {
-  for (int r = 0; r < size_; ++r) {
-    const Row& f = factor_[static_cast<std::size_t>(r)];
-    double sum = x[static_cast<std::size_t>(r)];
-    for (int c = std::max(0, r - kWidth); c < r; ++c) {
-      sum -= f[static_cast<std::size_t>(c - r + kWidth)] * x[static_cast<std::size_t>(c)];
-    }
-    x[static_cast<std::size_t>(r)] = sum;
+  for (int c = 0; c < size_; ++c) {
+    const Column& l = factor_[static_cast<std::size_t>(c)];
+    double* at = x.data() + c;
+    const auto below = static_cast<std::size_t>(std::min(kWidth, size_ - 1 - c));
+    for (std::size_t i = 1; i <= below; ++i) at[i] -= l[i] * at[0];
   }
-  for (int r = 0; r < size_; ++r) x[static_cast<std::size_t>(r)] /= pivots_[static_cast<std::size_t>(r)];
-  for (int r = size_ - 1; r >= 0; --r) {
-    const Row& f = factor_[static_cast<std::size_t>(r)];
-    const double value = x[static_cast<std::size_t>(r)];
-    for (int c = std::max(0, r - kWidth); c < r; ++c) {
-      x[static_cast<std::size_t>(c)] -= f[static_cast<std::size_t>(c - r + kWidth)] * value;
-    }
+  for (int c = size_ - 1; c >= 0; --c) {
+    const Column& l = factor_[static_cast<std::size_t>(c)];
+    double* at = x.data() + c;
+    double sum = at[0] * inverse_pivots_[static_cast<std::size_t>(c)];
+    const auto below = static_cast<std::size_t>(std::min(kWidth, size_ - 1 - c));
+    for (std::size_t i = 1; i <= below; ++i) sum -= l[i] * at[i];
+    at[0] = sum;
   }
 }
 

@@ -15,7 +15,7 @@ namespace endowire::math {
 /// solution is used; the number of negative entries of D equals the number of negative eigenvalues (Sylvester)
 /// and says when it is not.
 /// Cost      n·w² multiplications for half-bandwidth w.
-/// Storage   row r holds columns r − w … r, the diagonal last.
+/// Storage   column c holds rows c … c + w, the diagonal first; w columns of padding end the matrix.
 class BandMatrix {
  public:
   /// Unknowns of one joint: x, y, z and the turn of the rod behind it.
@@ -26,24 +26,24 @@ class BandMatrix {
   /// Keeps its memory when it shrinks, so that a step allocates nothing after warm-up.
   void resize(int size) {
     size_ = size;
-    rows_.resize(static_cast<std::size_t>(size));
-    factor_.resize(static_cast<std::size_t>(size));
-    pivots_.resize(static_cast<std::size_t>(size));
+    columns_.resize(padded(size));
+    factor_.resize(padded(size));
+    inverse_pivots_.resize(static_cast<std::size_t>(size));
   }
   void reserve(int size) {
-    rows_.reserve(static_cast<std::size_t>(size));
-    factor_.reserve(static_cast<std::size_t>(size));
-    pivots_.reserve(static_cast<std::size_t>(size));
+    columns_.reserve(padded(size));
+    factor_.reserve(padded(size));
+    inverse_pivots_.reserve(static_cast<std::size_t>(size));
   }
-  void set_zero() { std::fill(rows_.begin(), rows_.end(), Row{}); }
+  void set_zero() { std::fill(columns_.begin(), columns_.end(), Column{}); }
   [[nodiscard]] int size() const { return size_; }
 
   /// Entry (row, column) of the lower part: 0 ≤ row − column ≤ kHalfBandwidth.
   [[nodiscard]] double& lower(int row, int column) {
-    return rows_[static_cast<std::size_t>(row)][static_cast<std::size_t>(column - row + kHalfBandwidth)];
+    return columns_[static_cast<std::size_t>(column)][static_cast<std::size_t>(row - column)];
   }
   [[nodiscard]] double lower(int row, int column) const {
-    return rows_[static_cast<std::size_t>(row)][static_cast<std::size_t>(column - row + kHalfBandwidth)];
+    return columns_[static_cast<std::size_t>(column)][static_cast<std::size_t>(row - column)];
   }
   /// Adds to the symmetric pair (a, b), (b, a).
   void add(int a, int b, double value) { a >= b ? lower(a, b) += value : lower(b, a) += value; }
@@ -62,11 +62,14 @@ class BandMatrix {
   void multiply(const std::vector<double>& x, std::vector<double>& y) const;
 
  private:
-  using Row = std::array<double, kHalfBandwidth + 1>;
+  /// One entry more than the band holds: columns stay on even addresses for two-wide arithmetic.
+  using Column = std::array<double, kHalfBandwidth + 2>;
+  static std::size_t padded(int size) { return static_cast<std::size_t>(size + kHalfBandwidth); }
+
   int size_ = 0;
-  std::vector<Row> rows_;
-  std::vector<Row> factor_;
-  std::vector<double> pivots_;
+  std::vector<Column> columns_;
+  std::vector<Column> factor_;
+  std::vector<double> inverse_pivots_;
 };
 
 }  // namespace endowire::math

@@ -99,42 +99,67 @@ double chain_energy(const ChainMaterial& material, const ChainShape& shape) {
 
 namespace {
 
-using Vector11 = Eigen::Matrix<double, 11, 1>;
-using Matrix11 = Eigen::Matrix<double, 11, 11>;
-
-/// Lays a joint's derivatives from the turns of its rods onto the eleven unknowns x, θ, x, θ, x.
+/// Lays a joint's derivatives from the turns of its rods onto the unknowns of the joints before, at and after it.
 ///
 ///   turnₐ = mₐ·δt/|t| − (e·δt)(mₐ·δt)/|t|² + …,  third turn = δθ
 ///
-/// The quadratic part is why the gradient enters the Hessian.
+/// The quadratic part is why the gradient enters the Hessian. With e for the rod on the hand's side (t = x_j − x_{j+1}) and
+/// f for the one on the tip's (t = x_{j−1} − x_j), the blocks K of the two rods go to the joints by their signs.
 void add_joint(const JointDerivatives& d, const Frame& hand_side, double hand_length, const Frame& tip_side,
                double tip_length, int first, math::BandMatrix& hessian, std::vector<double>& gradient) {
-  Eigen::Matrix<double, 6, 11> turn = Eigen::Matrix<double, 6, 11>::Zero();
-  for (int a = 0; a < 2; ++a) {
-    turn.block<1, 3>(a, 4) = hand_side.col(a).transpose() / hand_length;
-    turn.block<1, 3>(a, 8) = -turn.block<1, 3>(a, 4);
-    turn.block<1, 3>(3 + a, 0) = tip_side.col(a).transpose() / tip_length;
-    turn.block<1, 3>(3 + a, 4) = -tip_side.col(a).transpose() / tip_length;
-  }
-  turn(2, 7) = 1.0;
-  turn(5, 3) = 1.0;
-  const Vector11 g = turn.transpose() * d.gradient;
-  Matrix11 h = turn.transpose() * (d.hessian * turn);
-  const auto add_turning = [&h](const Eigen::Vector3d& turned, const Eigen::Vector3d& tangent, double length, int tip,
-                                int hand) {
-    const Eigen::Matrix3d block =
-        -(tangent * turned.transpose() + turned * tangent.transpose()) / (length * length);
-    h.block<3, 3>(tip, tip) += block;
-    h.block<3, 3>(hand, hand) += block;
-    h.block<3, 3>(tip, hand) -= block;
-    h.block<3, 3>(hand, tip) -= block;
+  using Lever = Eigen::Matrix<double, 3, 2>;
+  const Lever a = hand_side.leftCols<2>() / hand_length;
+  const Lever b = tip_side.leftCols<2>() / tip_length;
+  const auto& h = d.hessian;
+  const auto block = [](const Lever& left, const Eigen::Matrix2d& middle, const Lever& right) {
+    const Lever lm = left.lazyProduct(middle);
+    return Eigen::Matrix3d(lm.lazyProduct(right.transpose()));
   };
-  add_turning(hand_side.leftCols<2>() * d.gradient.segment<2>(0), hand_side.col(2), hand_length, 4, 8);
-  add_turning(tip_side.leftCols<2>() * d.gradient.segment<2>(3), tip_side.col(2), tip_length, 0, 4);
-  for (int r = 0; r < 11; ++r) {
-    gradient[at(first + r)] += g[r];
-    for (int c = 0; c <= r; ++c) hessian.lower(first + r, first + c) += h(r, c);
+  const auto turning = [](const Eigen::Vector3d& force, const Eigen::Vector3d& tangent, double length) {
+    const Eigen::Matrix3d outer = tangent * (force.transpose() / length);
+    return Eigen::Matrix3d(-outer - outer.transpose());
+  };
+  const Eigen::Vector3d ge = a * d.gradient.segment<2>(0);
+  const Eigen::Vector3d gf = b * d.gradient.segment<2>(3);
+  const Eigen::Matrix3d ee = block(a, h.block<2, 2>(0, 0), a) + turning(ge, hand_side.col(2), hand_length);
+  const Eigen::Matrix3d ff = block(b, h.block<2, 2>(3, 3), b) + turning(gf, tip_side.col(2), tip_length);
+  const Eigen::Matrix3d ef = block(a, h.block<2, 2>(0, 3), b);
+  // Spin of the rod on the hand's side (column 2) and on the tip's side (column 5) with the two tangents.
+  const Eigen::Vector3d e_hand = a * h.block<2, 1>(0, 2);
+  const Eigen::Vector3d f_hand = b * h.block<2, 1>(3, 2);
+  const Eigen::Vector3d e_tip = a * h.block<2, 1>(0, 5);
+  const Eigen::Vector3d f_tip = b * h.block<2, 1>(3, 5);
+
+  const Eigen::Matrix3d middle = ee - ef - ef.transpose() + ff;
+  const int tip = first;
+  const int own = first + 4;
+  const int hand = first + 8;
+  for (int r = 0; r < 3; ++r) {
+    gradient[at(tip + r)] += gf[r];
+    gradient[at(own + r)] += ge[r] - gf[r];
+    gradient[at(hand + r)] -= ge[r];
+    for (int c = 0; c <= r; ++c) {
+      hessian.lower(tip + r, tip + c) += ff(r, c);
+      hessian.lower(own + r, own + c) += middle(r, c);
+      hessian.lower(hand + r, hand + c) += ee(r, c);
+    }
+    for (int c = 0; c < 3; ++c) {
+      hessian.lower(own + r, tip + c) += ef(r, c) - ff(r, c);
+      hessian.lower(hand + r, own + c) += ef(r, c) - ee(r, c);
+      hessian.lower(hand + r, tip + c) -= ef(r, c);
+    }
+    hessian.lower(tip + 3, tip + r) += f_tip[r];
+    hessian.lower(own + r, tip + 3) += e_tip[r] - f_tip[r];
+    hessian.lower(hand + r, tip + 3) -= e_tip[r];
+    hessian.lower(own + 3, tip + r) += f_hand[r];
+    hessian.lower(own + 3, own + r) += e_hand[r] - f_hand[r];
+    hessian.lower(hand + r, own + 3) -= e_hand[r];
   }
+  gradient[at(tip + 3)] += d.gradient[5];
+  gradient[at(own + 3)] += d.gradient[2];
+  hessian.lower(tip + 3, tip + 3) += h(5, 5);
+  hessian.lower(own + 3, tip + 3) += h(2, 5);
+  hessian.lower(own + 3, own + 3) += h(2, 2);
 }
 
 double add_stretch(double stiffness, double rest_length, double geometric_force, const Eigen::Vector3d& t, int first,
