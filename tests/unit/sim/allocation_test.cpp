@@ -1,0 +1,98 @@
+// A step allocates nothing after warm-up: operator new is replaced in this test binary, and counts.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include "support/simulations.hpp"
+
+namespace {
+std::atomic<long> allocations{0};
+
+void* counted(std::size_t size) {
+  ++allocations;
+  if (void* p = std::malloc(size > 0 ? size : 1)) return p;
+  throw std::bad_alloc();
+}
+
+void* counted(std::size_t size, std::align_val_t alignment) {
+  ++allocations;
+  const auto align = static_cast<std::size_t>(alignment);
+  if (void* p = std::aligned_alloc(align, (size + align - 1) / align * align)) return p;
+  throw std::bad_alloc();
+}
+}  // namespace
+
+void* operator new(std::size_t size) {
+  return counted(size);
+}
+void* operator new[](std::size_t size) {
+  return counted(size);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return counted(size, alignment);
+}
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+  return counted(size, alignment);
+}
+void operator delete(void* p) noexcept {
+  std::free(p);
+}
+void operator delete[](void* p) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+  std::free(p);
+}
+void operator delete[](void* p, std::size_t) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::align_val_t) noexcept {
+  std::free(p);
+}
+void operator delete[](void* p, std::align_val_t) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
+  std::free(p);
+}
+void operator delete[](void* p, std::size_t, std::align_val_t) noexcept {
+  std::free(p);
+}
+
+namespace endowire::sim {
+namespace {
+
+// Proves that the counter counts: a test of a counter that stands still would always pass.
+TEST(Allocations, AreCounted) {
+  const long before = allocations;
+  std::vector<double> v(100);
+  v[3] = 1.0;
+  EXPECT_EQ(allocations - before, 1);
+}
+
+// The wire goes in, out and round after a first insertion has warmed everything up. Breaks with one vector that grows.
+TEST(Allocations, AStepAllocatesNothingAfterWarmUp) {
+  Simulation simulation(test::bent_tube(), test::curved_tip_wire(), test::origin_access(), {});
+  test::run(simulation, 60, {1.0, 0.05});
+  test::run(simulation, 30, {-1.0, 0.0});
+  const long before = allocations;
+  long largest = 0;
+  bool converged = true;
+  double inserted = 0.0;
+  for (int i = 0; i < 90; ++i) {
+    const long at_start = allocations;
+    const StepReport& report = simulation.step({i < 60 ? 1.0 : -1.0, 0.05});
+    largest = std::max(largest, allocations - at_start);
+    converged = converged && report.converged;
+    inserted = std::max(inserted, report.inserted_length_mm);
+  }
+  EXPECT_EQ(allocations - before, 0) << "largest number in one step: " << largest;
+  EXPECT_TRUE(converged);
+  EXPECT_GT(inserted, 85.0) << "the wire did not go further than in the warm-up: nothing new was reached";
+}
+
+}  // namespace
+}  // namespace endowire::sim
