@@ -17,6 +17,10 @@ constexpr double kRubbingFloor_n = 1e-4;
 /// A sample on the wall that moved less cannot have passed one: its axis keeps a radius away.
 constexpr double kShortMove_mm = 0.1;
 constexpr double kAtDetection_mm = 0.1;
+/// Ridges are looked for at this spacing between samples, where normals differ by more than 3°, and matter from this depth on.
+constexpr double kRidgeStep_mm = 0.5;
+constexpr double kSameNormal = 0.9986;
+constexpr double kRidgeDip_mm = 0.03;
 constexpr int kMaxSamplesPerRod = 16;
 constexpr double kMinShare_mm = 0.25;
 
@@ -84,6 +88,11 @@ bool reachable(const vessel::Field& field, const Eigen::Vector3d& from, const Ei
   return (reachable_point_mm(field, from, to) - to).norm() < 1e-9;
 }
 
+void set_stiffness(Sample& s) {
+  s.stiffness_n_per_mm = s.foundation_n_per_mm2 * s.share_mm + s.tip_cap_n_per_mm;
+  s.stick_stiffness_n_per_mm = s.stick_ratio * s.stiffness_n_per_mm;
+}
+
 FrictionLaw friction_of(const Sample& s) { return {s.stick_stiffness_n_per_mm, s.friction * s.lagged_normal_n}; }
 
 }  // namespace
@@ -100,10 +109,20 @@ void FrictionMemory::reserve(std::size_t samples) {
   normal_n_per_mm.reserve(samples);
 }
 
+void ContactSet::reserve(int rods, std::size_t samples) {
+  samples_.reserve(samples);
+  memory_.reserve(samples);
+  start_shape_.reserve(rods);
+}
+
 void ContactSet::place(const rod::MaterialLine& line, const rod::ChainMaterial& material, const rod::ChainShape& shape,
                        int rods_in_lumen, const vessel::Field& field, const ContactSpec& spec,
                        const FrictionMemory& memory) {
   samples_.clear();
+  memory_.arc_mm.assign(memory.arc_mm.begin(), memory.arc_mm.end());
+  memory_.anchor_mm.assign(memory.anchor_mm.begin(), memory.anchor_mm.end());
+  memory_.normal_n_per_mm.assign(memory.normal_n_per_mm.begin(), memory.normal_n_per_mm.end());
+  start_shape_ = shape;
   double before_mm = 0.0;  // half an interval of the rod before
   for (int i = 0; i < rods_in_lumen; ++i) {
     const double length = material.length_mm[at(i)];
@@ -139,10 +158,11 @@ void ContactSet::detect_sample(const rod::ChainShape& shape, const vessel::Field
   const Eigen::Vector3d tangent = tangent_at(shape, s);
   find_local_walls(field, spec, tangent, s);
   if (s.walls == 0) return;
-  s.stiffness_n_per_mm = wall_stiffness_n_per_mm2(spec.wall, s.lumen_radius_mm, s.radius_mm) * s.share_mm;
-  if (s.arc_mm == 0.0) s.stiffness_n_per_mm += tip_cap_stiffness_n_per_mm(spec.wall, s.radius_mm);
+  s.foundation_n_per_mm2 = wall_stiffness_n_per_mm2(spec.wall, s.lumen_radius_mm, s.radius_mm);
+  s.tip_cap_n_per_mm = s.arc_mm == 0.0 ? tip_cap_stiffness_n_per_mm(spec.wall, s.radius_mm) : 0.0;
+  s.stick_ratio = spec.stick_stiffness_ratio;
+  set_stiffness(s);
   s.cap_mm = wall_cap_mm(spec.wall, s.lumen_radius_mm, field.tissue_to_next_lumen_mm(s.detected_at_mm));
-  s.stick_stiffness_n_per_mm = spec.stick_stiffness_ratio * s.stiffness_n_per_mm;
   const Eigen::Vector3d& n = s.wall[0].normal;
   const Eigen::Vector3d along = tangent - n * n.dot(tangent);
   s.axial = along.norm() > 0.1 ? along.normalized() : math::any_normal(n);
@@ -163,6 +183,64 @@ int ContactSet::redetect(const rod::ChainShape& shape, const vessel::Field& fiel
     ++detected;
   }
   return detected;
+}
+
+int ContactSet::add_over_ridges(const rod::MaterialLine& line, const rod::ChainMaterial& material,
+                                const rod::ChainShape& shape, const vessel::Field& field) {
+  int added = 0;
+  for (std::size_t i = 0; i + 1 < samples_.size(); ++i) {
+    const Sample& a = samples_[i];
+    const Sample& b = samples_[i + 1];
+    const double gap = b.arc_mm - a.arc_mm;
+    if (gap <= 1.5 * kRidgeStep_mm) continue;
+    // φ falls by no more than the distance: two samples that are clear of the wall by the gap between them hide nothing.
+    if (a.walls == 0 && b.walls == 0 && a.clearance_mm + b.clearance_mm > gap) continue;
+    if (a.walls > 0 && b.walls > 0 && a.wall[0].normal.dot(b.wall[0].normal) > kSameNormal) continue;
+    const int points = static_cast<int>(std::ceil(gap / kRidgeStep_mm));
+    double deepest = kRidgeDip_mm;
+    double where = -1.0;
+    for (int k = 1; k < points; ++k) {
+      const double arc = a.arc_mm + gap * k / points;
+      const double length = material.length_mm[at(a.rod)];
+      const double w = (arc - material.arc_mm[at(a.rod)]) / length;
+      const Eigen::Vector3d x = (1.0 - w) * shape.joints_mm[at(a.rod)] + w * shape.joints_mm[at(a.rod + 1)];
+      const double dip = line.radius_mm(arc) - field.at(x).distance_mm;
+      if (dip <= deepest) continue;
+      deepest = dip;
+      where = arc;
+    }
+    if (where < 0.0) continue;
+    add_between(i, where, line, material, shape);
+    ++added;
+    ++i;
+  }
+  return added;
+}
+
+void ContactSet::add_between(std::size_t before, double arc_mm, const rod::MaterialLine& line,
+                             const rod::ChainMaterial& material, const rod::ChainShape& shape) {
+  Sample& a = samples_[before];
+  Sample& b = samples_[before + 1];
+  Sample s;
+  s.rod = a.rod;
+  s.fraction = (arc_mm - material.arc_mm[at(a.rod)]) / material.length_mm[at(a.rod)];
+  s.arc_mm = arc_mm;
+  s.share_mm = 0.5 * (b.arc_mm - a.arc_mm);
+  a.share_mm -= 0.5 * (b.arc_mm - arc_mm);
+  b.share_mm -= 0.5 * (arc_mm - a.arc_mm);
+  set_stiffness(a);
+  set_stiffness(b);
+  s.radius_mm = line.radius_mm(arc_mm);
+  s.friction = line.friction(arc_mm);
+  s.start_mm = s.position_mm(start_shape_);
+  s.start_spin_rad = start_shape_.spin_rad[at(s.rod)];
+  std::size_t k = 0;
+  recall(memory_, k, s);
+  // It has followed its neighbours on their way: detection goes on from between them.
+  s.detected_at_mm = s.position_mm(shape) +
+                     0.5 * (a.detected_at_mm - a.position_mm(shape) + b.detected_at_mm - b.position_mm(shape));
+  s.wrong = true;
+  samples_.insert(samples_.begin() + static_cast<std::ptrdiff_t>(before) + 1, s);
 }
 
 double ContactSet::energy_mj(const rod::ChainShape& shape) {

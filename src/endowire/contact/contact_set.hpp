@@ -30,6 +30,9 @@ struct Sample {
   Eigen::Vector3d detected_at_mm = Eigen::Vector3d::Zero();
   double clearance_mm = 0.0;  ///< at detection, from the field
   double lumen_radius_mm = 0.0;
+  double foundation_n_per_mm2 = 0.0;
+  double tip_cap_n_per_mm = 0.0;
+  double stick_ratio = 1.0;
   double stiffness_n_per_mm = 0.0;
   double cap_mm = 0.0;
   double stick_stiffness_n_per_mm = 0.0;
@@ -86,7 +89,7 @@ struct Verification {
 /// All samples of a wire: one detection, then energies and forces without further detection.
 class ContactSet {
  public:
-  void reserve(std::size_t samples) { samples_.reserve(samples); }
+  void reserve(int rods, std::size_t samples);
   [[nodiscard]] const std::vector<Sample>& samples() const { return samples_; }
   [[nodiscard]] bool empty() const { return samples_.empty(); }
 
@@ -103,6 +106,12 @@ class ContactSet {
   ///               each other, as on the two sides of a ridge
   /// @return       number of samples detected
   int redetect(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec, double share);
+
+  /// Adds samples where the wall reaches between two others: over a ridge, such as a carina or the edge of a facet, a
+  /// straight rod dips deeper into the wall than samples on both sides of it see. They are not detected yet but marked wrong.
+  /// @return  number of samples added
+  int add_over_ridges(const rod::MaterialLine& line, const rod::ChainMaterial& material, const rod::ChainShape& shape,
+                      const vessel::Field& field);
 
   /// Energy of wall and friction (with lagged normal forces); updates the samples' normal forces.
   [[nodiscard]] double energy_mj(const rod::ChainShape& shape);
@@ -134,6 +143,11 @@ class ContactSet {
   [[nodiscard]] Eigen::Vector3d friction_force_n(const rod::ChainShape& shape, std::size_t sample) const;
 
  private:
+  FrictionMemory memory_;        ///< of the last converged state
+  rod::ChainShape start_shape_;  ///< the last converged state
+
+  void add_between(std::size_t before, double arc_mm, const rod::MaterialLine& line, const rod::ChainMaterial& material,
+                   const rod::ChainShape& shape);
   void detect_sample(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec, double share,
                      Sample& sample) const;
 

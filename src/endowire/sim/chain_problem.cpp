@@ -31,7 +31,7 @@ void ChainProblem::reserve(int rods, std::size_t samples) {
   shape.reserve(rods);
   trial_.reserve(rods);
   scratch_.reserve(rods);
-  contact.reserve(samples);
+  contact.reserve(rods, samples);
   const auto unknowns = at(4 * (rods + 1));
   held.reserve(unknowns);
   cartesian_.reserve(unknowns);

@@ -137,7 +137,7 @@ Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrume
   feed.torque = {solver.grip_stiffness_n_per_mm, line_.instrument().grip_torque_n_mm};
 
   const auto joints = static_cast<int>(grid_.size()) + 1;
-  const std::size_t samples = 4 * grid_.size() + 256;
+  const std::size_t samples = 20 * grid_.size();
   problem_.reserve(joints, samples);
   newton_.reserve(4 * (joints + 1));
   friction_.reserve(samples);
@@ -386,6 +386,9 @@ bool Simulation::Impl::settle() {
   contact::ContactSet& contact = problem_.contact;
   const double samples = std::max<double>(1.0, static_cast<double>(contact.samples().size()));
   contact.detect(problem_.shape, *field_, contact_spec_);
+  if (contact.add_over_ridges(line_, problem_.material, problem_.shape, *field_) > 0) {
+    contact.redetect(problem_.shape, *field_, contact_spec_, 1.0);
+  }
   report_.detections += 1.0;
   for (int round = 0; round < kMaxDetections; ++round) {
     report_.solve = newton_.minimise(problem_, newton_spec_);
@@ -394,9 +397,10 @@ bool Simulation::Impl::settle() {
     if (!report_.solve.converged() && !left_region) return false;
     ++report_.verifications;
     const contact::Verification check = contact.verify(problem_.shape, *field_, contact_spec_);
-    if (report_.solve.converged() && check.wrong_samples == 0) return true;
+    const int added = contact.add_over_ridges(line_, problem_.material, problem_.shape, *field_);
+    if (report_.solve.converged() && check.wrong_samples + added == 0) return true;
     // A state on its way that no wall contradicts goes on from where it is.
-    if (check.wrong_samples == 0) contact.mark_outside(problem_.shape, problem_.region_mm);
+    if (check.wrong_samples + added == 0) contact.mark_outside(problem_.shape, problem_.region_mm);
     report_.detections +=
         contact.redetect(problem_.shape, *field_, contact_spec_, round < kBisectFrom ? 1.0 : 0.5) / samples;
   }
