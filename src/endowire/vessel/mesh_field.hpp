@@ -24,7 +24,7 @@ struct FieldParameters {
   double error_slope = 0.05;           ///< allowed error per distance further in; twice that further out [-]
   double min_spacing_mm = 0.1;         ///< finest sample spacing; sharper edges miss error_target_mm [mm]
   double virtual_tube_mm = 60.0;       ///< length of the tube behind an opening [mm]
-  std::size_t max_bytes = 40'000'000;  ///< refinement, worst cell first, stops here; error_mm() then tells
+  std::size_t max_bytes = 60'000'000;  ///< refinement, worst cell first, stops here; error_mm() then tells
 };
 
 /// What a prepared field is, for reports.

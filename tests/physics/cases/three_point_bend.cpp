@@ -15,7 +15,7 @@ Checks three_point_bend(int rods) {
   constexpr double kSpan_mm = 100.0;
   constexpr double kDiameter_mm = 0.889;
   constexpr double kGpa = 1e3;
-  constexpr double kDeflection = 1e-3;  // of the span: the closed form is linear
+  constexpr double kDeflection = 3e-4;  // of the span: the closed form is linear, at 1e-3 it errs by 4e-6
   const double inertia_mm4 = std::numbers::pi * std::pow(kDiameter_mm, 4) / 64.0;
   struct Wire {
     const char* name;

@@ -32,14 +32,18 @@ TEST(WallResponse, ForceAndStiffnessAreTheDerivativesOfTheEnergy) {
   }
 }
 
-// Energy and force are continuous where the formula changes. Breaks with a jump: the line search stops there.
-TEST(WallResponse, EnergyAndForceAreContinuous) {
+// Energy, force and Hessian are continuous where the formula changes. Breaks with a jump of the stiffness: Newton
+// then cycles between the two sides.
+TEST(WallResponse, IsContinuousToTheSecondDerivative) {
   constexpr double h = 1e-9;
   for (const double border : kBorders) {
     const WallResponse below = wall_response(kStiffness, kCap, border - h);
     const WallResponse above = wall_response(kStiffness, kCap, border + h);
     EXPECT_NEAR(above.energy_mj, below.energy_mj, 1e-7) << border;
     EXPECT_NEAR(above.force_n, below.force_n, 1e-6) << border;
+    EXPECT_NEAR(above.stiffness_n_per_mm, below.stiffness_n_per_mm,
+                1e-4 * (kStiffness + above.stiffness_n_per_mm))
+        << border;
   }
 }
 
