@@ -23,11 +23,11 @@ TEST(ValidationTable, TheCommittedFileIsTheOneGenerated) {
 TEST(ValidationTable, DiffersByMoreThanTheLastDigitOnlyWhenAValueDoes) {
   const Check check{"V0", "half [mm]", "1/2", 0.5, 0.5001, 1e-3, ErrorKind::relative, "nobody"};
   Check rounded = check;
-  rounded.ours += 8e-7;
+  rounded.ours += 6e-6;
   Check changed = check;
   changed.ours += 1e-4;
   const std::string table = validation_table({check});
-  EXPECT_NE(table.find("| V0 | half [mm] | 1/2 | 0.500000 | 0.500100 | 0.020 % | 0.1 % | nobody |"),
+  EXPECT_NE(table.find("| V0 | half [mm] | 1/2 | 0.50000 | 0.50010 | 0.020 % | 0.1 % | nobody |"),
             std::string::npos)
       << table;
   EXPECT_EQ(table_difference(table, validation_table({rounded})), "");

@@ -20,9 +20,9 @@ std::string fixed(double value, int decimals) {
                                                                                          : result;
 }
 
-/// Decimals that show a hundredth of a size.
+/// Decimals that show about a hundredth of a size: not less, up to ten times more.
 int decimals_of(double size) {
-  return std::max(0, 2 - static_cast<int>(std::floor(std::log10(size) + 1e-9)));
+  return std::max(0, static_cast<int>(std::floor(2.0 - std::log10(size) + 1e-9)));
 }
 
 /// A size as a power of ten below a thousandth, else plain.
