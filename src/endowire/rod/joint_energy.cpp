@@ -113,6 +113,15 @@ void add_side(const JointMaterial& material, const Side& side, const AngleFactor
   }
 }
 
+/// Bending of a straight, round joint: E = (EI/2l̄) φ² depends on c alone, dφ²/dc = −2k. The two sides say the same.
+void add_straight(const JointMaterial& material, const AngleFactor& k, double c, const Turns& dc, const Matrix6& ddc,
+                  JointDerivatives& out) {
+  const double stiffness = material.bend_n_mm2[0] / material.span_mm;
+  out.energy_mj += 0.5 * stiffness * k.value * k.value * (1.0 - c) * (1.0 + c);
+  out.gradient -= stiffness * k.value * dc;
+  out.hessian -= stiffness * (k.first * dc * dc.transpose() + k.value * ddc);
+}
+
 void add_twist(const JointMaterial& material, const Eigen::Matrix3d& p, double twist_rad, const Turns& dc,
                JointDerivatives& out) {
   const double q = 1.0 / (1.0 + p(2, 2));
@@ -185,7 +194,7 @@ double joint_energy(const JointMaterial& material, const Frame& hand_side, const
 }
 
 void joint_derivatives(const JointMaterial& material, const Frame& hand_side, const Frame& tip_side, double twist_rad,
-                       JointDerivatives& out) {
+                       JointDerivatives& out, bool with_rest_gradient) {
   out = JointDerivatives{};
   const Eigen::Matrix3d p = hand_side.transpose() * tip_side;
   const Eigen::Matrix3d pt = p.transpose();
@@ -198,8 +207,13 @@ void joint_derivatives(const JointMaterial& material, const Frame& hand_side, co
     for (int b = 0; b < 2; ++b) ddc(a, 3 + b) = ddc(3 + b, a) = p(a, b);
   }
   const AngleFactor k = angle_factor(c);
-  add_side(material, Side{p, 0, 3, 1.0}, k, dc, ddc, out);
-  add_side(material, Side{pt, 3, 0, -1.0}, k, dc, ddc, out);
+  const bool straight = material.rest_bend_rad.isZero(0.0) && material.bend_n_mm2[0] == material.bend_n_mm2[1];
+  if (straight && !with_rest_gradient) {
+    add_straight(material, k, c, dc, ddc, out);
+  } else {
+    add_side(material, Side{p, 0, 3, 1.0}, k, dc, ddc, out);
+    add_side(material, Side{pt, 3, 0, -1.0}, k, dc, ddc, out);
+  }
   add_twist(material, p, twist_rad, dc, out);
   add_kink(material, c, dc, ddc, out);
 }

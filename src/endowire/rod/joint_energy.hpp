@@ -62,7 +62,8 @@ struct JointDerivatives {
 
 /// The same with exact first and second derivatives. The second derivatives are those along great arcs of the
 /// tangents with frames transported in parallel from this state, which makes the Hessian symmetric.
+/// @param with_rest_gradient  whether rest_gradient and rest_turn are wanted; without them a straight joint is cheaper
 void joint_derivatives(const JointMaterial& material, const Frame& hand_side, const Frame& tip_side,
-                       double twist_rad, JointDerivatives& out);
+                       double twist_rad, JointDerivatives& out, bool with_rest_gradient = false);
 
 }  // namespace endowire::rod

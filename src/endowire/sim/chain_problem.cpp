@@ -156,7 +156,7 @@ double ChainProblem::add_feed(math::BandMatrix& hessian, std::vector<double>& gr
   rod::JointMaterial joint = material.joints[at(n - 1)];
   joint.kink_per_mm = std::numeric_limits<double>::infinity();  // its law is taken at the span of the base state
   rod::JointDerivatives d;
-  rod::joint_derivatives(joint, shape.frames[at(n - 1)], shape.frames[at(n - 2)], shape.twist_rad[at(n - 1)], d);
+  rod::joint_derivatives(joint, shape.frames[at(n - 1)], shape.frames[at(n - 2)], shape.twist_rad[at(n - 1)], d, true);
   const Eigen::Vector2d k0 = line->rest_curvature_per_mm(feed.inserted_mm);
   const double span = joint.span_mm;
   const double rest = d.rest_gradient.dot(k0);
