@@ -114,10 +114,13 @@ void add_side(const JointMaterial& material, const Side& side, const AngleFactor
 }
 
 /// Bending of a straight, round joint: E = (EI/2l̄) φ² depends on c alone, dφ²/dc = −2k. The two sides say the same.
-void add_straight(const JointMaterial& material, const AngleFactor& k, double c, const Turns& dc, const Matrix6& ddc,
+/// sin φ comes from the components of the tangent, as in joint_energy: 1 − c² has no digits left for small angles, and a merit
+/// that differs from that of the trial states stalls the line search.
+void add_straight(const JointMaterial& material, const AngleFactor& k, const Turns& dc, const Matrix6& ddc,
                   JointDerivatives& out) {
   const double stiffness = material.bend_n_mm2[0] / material.span_mm;
-  out.energy_mj += 0.5 * stiffness * k.value * k.value * (1.0 - c) * (1.0 + c);
+  const double sine_squared = 0.5 * (dc.segment<2>(0).squaredNorm() + dc.segment<2>(3).squaredNorm());
+  out.energy_mj += 0.5 * stiffness * k.value * k.value * sine_squared;
   out.gradient -= stiffness * k.value * dc;
   out.hessian -= stiffness * (k.first * dc * dc.transpose() + k.value * ddc);
 }
@@ -209,7 +212,7 @@ void joint_derivatives(const JointMaterial& material, const Frame& hand_side, co
   const AngleFactor k = angle_factor(c);
   const bool straight = material.rest_bend_rad.isZero(0.0) && material.bend_n_mm2[0] == material.bend_n_mm2[1];
   if (straight && !with_rest_gradient) {
-    add_straight(material, k, c, dc, ddc, out);
+    add_straight(material, k, dc, ddc, out);
   } else {
     add_side(material, Side{p, 0, 3, 1.0}, k, dc, ddc, out);
     add_side(material, Side{pt, 3, 0, -1.0}, k, dc, ddc, out);
