@@ -1,4 +1,5 @@
-// write_validation FILE: runs the cases of physics and writes their table; exit 1 when one misses its tolerance.
+// write_validation FILE: runs the cases of physics and writes their table; when one misses its tolerance it writes nothing and
+// exits with 1.
 #include <fstream>
 #include <iostream>
 
@@ -19,11 +20,12 @@ int main(int argc, char** argv) {
     std::cerr << c.test << " " << c.quantity << ": error " << c.error() << ", allowed " << c.tolerance
               << "\n";
   }
+  if (!all_hold) return 1;
   std::ofstream file(argv[1], std::ios::binary);
   file << validation_table(checks);
   if (!file.flush()) {
     std::cerr << argv[1] << ": cannot be written\n";
     return 2;
   }
-  return all_hold ? 0 : 1;
+  return 0;
 }
