@@ -27,8 +27,11 @@ constexpr double kMaxBias_rad = 0.15;
 constexpr double kSnap_mm = 1.5;
 /// Local walls hold this far around the place of detection; a state beyond is detected anew.
 constexpr double kRegion_mm = 0.8;
+/// Corrections below which the walls are checked before the solution is polished.
+constexpr double kRough_mm = 0.03;
+constexpr double kRough_rad = 0.02;
 /// Longest motion of a joint in one Newton iteration: local walls are believed about as far.
-constexpr double kMaxStep_mm = 0.5;
+constexpr double kMaxStep_mm = 0.7;
 /// Detections within one sub-step: a snap crosses the lumen in pieces of kRegion_mm.
 constexpr int kMaxDetections = 100;
 /// From this detection of a sub-step on, places of detection are bisected.
@@ -77,6 +80,7 @@ class Simulation::Impl {
   SimulationSpec spec_;
   contact::ContactSpec contact_spec_;
   solve::NewtonSpec newton_spec_;
+  solve::NewtonSpec rough_spec_;  ///< to where it is worth asking whether the walls hold
   std::vector<double> grid_;
   double gravity_m_per_s2_ = 0.0;
 
@@ -120,6 +124,10 @@ Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrume
   newton_spec_.proximal_scale = solver.proximal_scale;
   newton_spec_.max_iterations = solver.max_iterations;
   newton_spec_.max_step_mm = kMaxStep_mm;
+  rough_spec_ = newton_spec_;
+  rough_spec_.correction_tolerance_mm = std::max(kRough_mm, newton_spec_.correction_tolerance_mm);
+  rough_spec_.correction_tolerance_rad = std::max(kRough_rad, newton_spec_.correction_tolerance_rad);
+  rough_spec_.force_tolerance = rough_spec_.lag_tolerance = HUGE_VAL;
 
   grid_ = uniform_grid(line_, solver.rod_length_mm, kMaxBias_rad);
   gravity_m_per_s2_ = spec_.gravity_m_per_s2.norm();
@@ -390,17 +398,23 @@ bool Simulation::Impl::settle() {
     contact.redetect(problem_.shape, *field_, contact_spec_, 1.0);
   }
   report_.detections += 1.0;
+  bool rough = true;
   for (int round = 0; round < kMaxDetections; ++round) {
-    report_.solve = newton_.minimise(problem_, newton_spec_);
+    report_.solve = newton_.minimise(problem_, rough ? rough_spec_ : newton_spec_);
     report_.newton_iterations += report_.solve.iterations;
     const bool left_region = !problem_.inside_region();
     if (!report_.solve.converged() && !left_region) return false;
     ++report_.verifications;
     const contact::Verification check = contact.verify(problem_.shape, *field_, contact_spec_);
-    const int added = contact.add_over_ridges(line_, problem_.material, problem_.shape, *field_);
-    if (report_.solve.converged() && check.wrong_samples + added == 0) return true;
+    const int wrong =
+        check.wrong_samples + contact.add_over_ridges(line_, problem_.material, problem_.shape, *field_);
+    if (report_.solve.converged() && wrong == 0) {
+      if (!rough) return true;
+      rough = false;
+      continue;
+    }
     // A state on its way that no wall contradicts goes on from where it is.
-    if (check.wrong_samples + added == 0) contact.mark_outside(problem_.shape, problem_.region_mm);
+    if (wrong == 0) contact.mark_outside(problem_.shape, problem_.region_mm);
     report_.detections +=
         contact.redetect(problem_.shape, *field_, contact_spec_, round < kBisectFrom ? 1.0 : 0.5) / samples;
   }

@@ -14,6 +14,7 @@ constexpr int kMaxHalvings = 30;
 constexpr int kMaxAnticipations = 6;
 constexpr double kCalm_mm = 0.2;  // lagged forces are renewed once steps are this short: before, they mean nothing
 constexpr double kPoorStep = 0.3;          // a line search that ends below this share says: the model was bad, trust less
+constexpr double kShorten = 2.0;            // a direction up to this many trust radii long is shortened, a longer one bent by the weight
 constexpr double kSmallestTrust_mm = 0.05;
 constexpr double kStraight = 0.8;           // a quadratic falls by half of its slope per full step, a straight line by all
 constexpr double kWorthExtending = 1e-9;    // relative decrease of the merit below which a step is never lengthened
@@ -69,7 +70,7 @@ bool Newton::restrict_direction(Problem& problem, double trust_mm, const NewtonS
     ++report.factorisations;
     if (factorise(lambda) > 0) continue;
     find_direction(problem, lambda, report);
-    if (!(norms(direction_).position > trust_mm)) break;
+    if (!(norms(direction_).position > kShorten * trust_mm)) break;
   }
   last_weight_ = lambda;
   return lambda < kLargestWeight;
@@ -100,11 +101,11 @@ double Newton::extend_step(Problem& problem, const NewtonSpec& spec, double meri
   return alpha;
 }
 
-double Newton::search_line(Problem& problem, const NewtonSpec& spec, double merit, SolveReport& report) {
+double Newton::search_line(Problem& problem, const NewtonSpec& spec, double trust_mm, double merit, SolveReport& report) {
   const Norms step = norms(direction_);
   const double descent = slope();
   double alpha = 1.0;
-  if (step.position > spec.max_step_mm) alpha = spec.max_step_mm / step.position;
+  if (step.position > trust_mm) alpha = trust_mm / step.position;
   if (step.turn * alpha > spec.max_turn_rad) alpha = spec.max_turn_rad / step.turn;
   // A decrease below the rounding of the merit cannot be seen: the gradient alone judges such a step.
   const double rounding = 1e-13 * (std::abs(merit) + 1.0);
@@ -139,7 +140,7 @@ SolveReport Newton::minimise(Problem& problem, const NewtonSpec& spec) {
     const bool definite = factorise(0.0) == 0;
     model_gradient_ = gradient_;
     if (definite) find_direction(problem, 0.0, report);
-    if (!definite || norms(direction_).position > trust_mm) {
+    if (!definite || norms(direction_).position > kShorten * trust_mm) {
       ++report.regularised_iterations;
       if (!restrict_direction(problem, trust_mm, spec, report)) {
         report.termination = Termination::left_domain;
@@ -160,7 +161,7 @@ SolveReport Newton::minimise(Problem& problem, const NewtonSpec& spec) {
       report.termination = Termination::left_domain;
       return report;
     }
-    const bool full = definite && correction.position <= trust_mm;
+    const bool full = definite && correction.position <= kShorten * trust_mm;
     const bool small_residual = residual.position <= spec.force_tolerance * scale.force_n + scale.rounding_n + spec.force_floor_n &&
                                 residual.turn <= spec.force_tolerance * scale.moment_n_mm + spec.moment_floor_n_mm;
     if (full && small_residual && correction.position <= spec.correction_tolerance_mm &&
@@ -172,7 +173,7 @@ SolveReport Newton::minimise(Problem& problem, const NewtonSpec& spec) {
       report.termination = Termination::iteration_limit;
       return report;
     }
-    double alpha = slope() < 0.0 ? search_line(problem, spec, report.merit_mj, report) : 0.0;
+    double alpha = slope() < 0.0 ? search_line(problem, spec, trust_mm, report.merit_mj, report) : 0.0;
     if (alpha == 0.0 && definite) {
       // The anticipated contacts misled: once more without.
       hessian_.set_zero();
@@ -181,7 +182,7 @@ SolveReport Newton::minimise(Problem& problem, const NewtonSpec& spec) {
       factorise(0.0);
       for (std::size_t i = 0; i < direction_.size(); ++i) direction_[i] = -gradient_[i];
       hessian_.solve(direction_);
-      alpha = search_line(problem, spec, report.merit_mj, report);
+      alpha = search_line(problem, spec, trust_mm, report.merit_mj, report);
     }
     if (alpha == 0.0) {
       report.termination = Termination::stalled;

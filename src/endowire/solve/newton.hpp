@@ -91,7 +91,7 @@ class Newton {
   double extend_step(Problem& problem, const NewtonSpec& spec, double merit, double trial, double alpha, double descent,
                      SolveReport& report);
   /// The step taken, 0 when none decreases the merit.
-  double search_line(Problem& problem, const NewtonSpec& spec, double merit, SolveReport& report);
+  double search_line(Problem& problem, const NewtonSpec& spec, double trust_mm, double merit, SolveReport& report);
 
   math::BandMatrix hessian_;
   std::vector<double> gradient_, model_gradient_, direction_, shift_, empty_;
