@@ -351,7 +351,8 @@ void ContactSet::renew_lagged() {
   for (Sample& s : samples_) s.lagged_normal_n = s.normal_n;
 }
 
-Verification ContactSet::verify(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec) {
+Verification ContactSet::verify(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec,
+                                bool rough_field) {
   Verification result;
   for (Sample& s : samples_) {
     s.wrong = false;
@@ -369,7 +370,7 @@ Verification ContactSet::verify(const rod::ChainShape& shape, const vessel::Fiel
     }
     result.gap_error_mm = std::max(result.gap_error_mm, error);
     // At the very place of detection the walls are the field; what they still miss there is the field's own roughness.
-    s.wrong = error > (u.norm() < kAtDetection_mm ? std::max(spec.gap_error_mm, field.error_mm()) : spec.gap_error_mm);
+    s.wrong = error > (rough_field || u.norm() < kAtDetection_mm ? std::max(spec.gap_error_mm, field.error_mm()) : spec.gap_error_mm);
     result.wrong_samples += s.wrong ? 1 : 0;
   }
   return result;

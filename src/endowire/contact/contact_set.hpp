@@ -130,7 +130,10 @@ class ContactSet {
   void renew_lagged();
 
   /// Compares the local walls with the field at a shape and marks the samples that are off by more than spec.gap_error_mm.
-  [[nodiscard]] Verification verify(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec);
+  /// @param rough_field  allow the field's own stated error instead: where detections keep contradicting each other at one
+  ///                     place, it is the field that is uneven
+  [[nodiscard]] Verification verify(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec,
+                                    bool rough_field = false);
 
   /// Marks as wrong the samples that moved further from their place of detection than their clearance and `region_mm`.
   int mark_outside(const rod::ChainShape& shape, double region_mm);

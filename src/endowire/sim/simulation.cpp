@@ -36,6 +36,8 @@ constexpr double kMaxStep_mm = 0.7;
 constexpr int kMaxDetections = 100;
 /// From this detection of a sub-step on, places of detection are bisected.
 constexpr int kBisectFrom = 3;
+/// From this one on the field's own error is allowed.
+constexpr int kUnevenFrom = 12;
 constexpr double kStandardGravity_floor = 1e-12;
 
 [[noreturn]] void refuse(const std::string& text) { throw base::InputError(text); }
@@ -127,7 +129,7 @@ Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrume
   rough_spec_ = newton_spec_;
   rough_spec_.correction_tolerance_mm = std::max(kRough_mm, newton_spec_.correction_tolerance_mm);
   rough_spec_.correction_tolerance_rad = std::max(kRough_rad, newton_spec_.correction_tolerance_rad);
-  rough_spec_.force_tolerance = rough_spec_.lag_tolerance = HUGE_VAL;
+  rough_spec_.force_floor_n = rough_spec_.moment_floor_n_mm = rough_spec_.lag_tolerance = HUGE_VAL;
 
   grid_ = uniform_grid(line_, solver.rod_length_mm, kMaxBias_rad);
   gravity_m_per_s2_ = spec_.gravity_m_per_s2.norm();
@@ -405,9 +407,10 @@ bool Simulation::Impl::settle() {
     const bool left_region = !problem_.inside_region();
     if (!report_.solve.converged() && !left_region) return false;
     ++report_.verifications;
-    const contact::Verification check = contact.verify(problem_.shape, *field_, contact_spec_);
+    const contact::Verification check = contact.verify(problem_.shape, *field_, contact_spec_, round >= kUnevenFrom);
     const int wrong =
-        check.wrong_samples + contact.add_over_ridges(line_, problem_.material, problem_.shape, *field_);
+        check.wrong_samples +
+        (round < kUnevenFrom ? contact.add_over_ridges(line_, problem_.material, problem_.shape, *field_) : 0);
     if (report_.solve.converged() && wrong == 0) {
       if (!rough) return true;
       rough = false;
