@@ -11,8 +11,10 @@ class ContractError : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-[[noreturn]] inline void contract_failed(const char* expression, const char* reason, const char* file, int line) {
-  throw ContractError(std::string(file) + ":" + std::to_string(line) + ": " + reason + " (" + expression + ")");
+[[noreturn]] inline void contract_failed(const char* expression, const char* reason, const char* file,
+                                         int line) {
+  throw ContractError(std::string(file) + ":" + std::to_string(line) + ": " + reason + " (" + expression +
+                      ")");
 }
 
 }  // namespace endowire::base
@@ -22,5 +24,6 @@ class ContractError : public std::logic_error {
 #define ENDOWIRE_EXPECTS(condition, reason) static_cast<void>(0)
 #else
 #define ENDOWIRE_EXPECTS(condition, reason) \
-  ((condition) ? static_cast<void>(0) : ::endowire::base::contract_failed(#condition, reason, __FILE__, __LINE__))
+  ((condition) ? static_cast<void>(0)       \
+               : ::endowire::base::contract_failed(#condition, reason, __FILE__, __LINE__))
 #endif

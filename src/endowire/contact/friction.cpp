@@ -18,7 +18,8 @@ FrictionResponse friction_response(const FrictionLaw& law, const Eigen::Vector2d
   } else {
     const Eigen::Vector2d direction = slip_mm / slip;
     r.force_n = law.limit_n * direction;
-    r.stiffness_n_per_mm = law.limit_n / slip * (Eigen::Matrix2d::Identity() - direction * direction.transpose());
+    r.stiffness_n_per_mm =
+        law.limit_n / slip * (Eigen::Matrix2d::Identity() - direction * direction.transpose());
   }
   return r;
 }

@@ -12,7 +12,8 @@ double local_height_mm(const LocalWall& wall, const Eigen::Vector3d& u) {
   const double c = wall.second.dot(u);
   if (wall.ridge) {
     const double other = wall.other_height_mm + wall.other_normal.dot(u);
-    return 0.5 * (a + other + std::hypot(a - other, wall.blend_mm)) - 0.5 * wall.second_curvature_per_mm * c * c;
+    return 0.5 * (a + other + std::hypot(a - other, wall.blend_mm)) -
+           0.5 * wall.second_curvature_per_mm * c * c;
   }
   const double s = std::hypot(1.0 - k * a, k * b);
   return (2.0 * a - k * (a * a + b * b)) / (1.0 + s) - 0.5 * wall.second_curvature_per_mm * c * c;
@@ -46,7 +47,8 @@ LocalHeight local_height_derivatives(const LocalWall& wall, const Eigen::Vector3
   const double s = std::max(std::hypot(p, k * b), 1e-9);
   LocalHeight h;
   h.value_mm = (2.0 * a - k * (a * a + b * b)) / (1.0 + s) - 0.5 * wall.second_curvature_per_mm * c * c;
-  h.gradient = (p / s) * wall.normal - (k * b / s) * wall.first - wall.second_curvature_per_mm * c * wall.second;
+  h.gradient =
+      (p / s) * wall.normal - (k * b / s) * wall.first - wall.second_curvature_per_mm * c * wall.second;
   const double s3 = s * s * s;
   const Eigen::Vector3d turning = k * b * wall.normal + p * wall.first;  // tangent of the circle, times s
   h.hessian = -(k / s3) * turning * turning.transpose() -

@@ -43,6 +43,7 @@ struct LocalHeight {
 };
 
 [[nodiscard]] double local_height_mm(const LocalWall& wall, const Eigen::Vector3d& displacement_mm);
-[[nodiscard]] LocalHeight local_height_derivatives(const LocalWall& wall, const Eigen::Vector3d& displacement_mm);
+[[nodiscard]] LocalHeight local_height_derivatives(const LocalWall& wall,
+                                                   const Eigen::Vector3d& displacement_mm);
 
 }  // namespace endowire::contact

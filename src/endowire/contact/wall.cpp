@@ -7,7 +7,7 @@ namespace endowire::contact {
 
 namespace {
 
-constexpr double kTangentFrom = 0.9;     // of the cap
+constexpr double kTangentFrom = 0.9;  // of the cap
 
 double plane_modulus(const WallSpec& spec) {
   return spec.modulus_mpa / (1.0 - spec.poisson_ratio * spec.poisson_ratio);
@@ -26,7 +26,8 @@ double tip_cap_stiffness_n_per_mm(const WallSpec& spec, double wire_radius_mm) {
 }
 
 double wall_cap_mm(const WallSpec& spec, double lumen_radius_mm, double tissue_mm) {
-  return std::min({0.5 * spec.thickness_over_radius * lumen_radius_mm, tissue_mm / 3.0, spec.max_deflection_mm});
+  return std::min(
+      {0.5 * spec.thickness_over_radius * lumen_radius_mm, tissue_mm / 3.0, spec.max_deflection_mm});
 }
 
 WallResponse wall_response(double stiffness_n_per_mm, double cap_mm, double depth_mm) {
@@ -40,8 +41,7 @@ WallResponse wall_response(double stiffness_n_per_mm, double cap_mm, double dept
     // ∫ kx/(1 − x/c) dx = −k c² (x/c + ln(1 − x/c))
     const double q = 1.0 - x / cap_mm;
     return WallResponse{-stiffness_n_per_mm * cap_mm * cap_mm * (x / cap_mm + std::log1p(-x / cap_mm)),
-                        stiffness_n_per_mm * x / q, stiffness_n_per_mm / (q * q),
-                        stiffness_n_per_mm * x / q};
+                        stiffness_n_per_mm * x / q, stiffness_n_per_mm / (q * q), stiffness_n_per_mm * x / q};
   };
   const double last = kTangentFrom * cap_mm;
   WallResponse w = law(std::min(s, last));
@@ -50,7 +50,8 @@ WallResponse wall_response(double stiffness_n_per_mm, double cap_mm, double dept
     w.energy_mj += w.force_n * beyond + 0.5 * w.stiffness_n_per_mm * beyond * beyond;
     w.force_n += w.stiffness_n_per_mm * beyond;
   }
-  return {w.energy_mj, w.force_n * ds, w.stiffness_n_per_mm * ds * ds + w.force_n * dds, w.bounded_force_n * ds};
+  return {w.energy_mj, w.force_n * ds, w.stiffness_n_per_mm * ds * ds + w.force_n * dds,
+          w.bounded_force_n * ds};
 }
 
 }  // namespace endowire::contact

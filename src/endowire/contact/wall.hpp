@@ -19,7 +19,8 @@ struct WallSpec {
 /// Symbols  E modulus [MPa], ν Poisson's ratio, h wall thickness, R lumen radius, r wire radius [mm]
 /// Source   Winkler layer: [Johnson1985 §4.3]; hoop term: thin ring under pressure, p = E' h w/R².
 /// Domain   h of the order of r or more; local indentation only, the vessel as a whole does not move.
-[[nodiscard]] double wall_stiffness_n_per_mm2(const WallSpec& spec, double lumen_radius_mm, double wire_radius_mm);
+[[nodiscard]] double wall_stiffness_n_per_mm2(const WallSpec& spec, double lumen_radius_mm,
+                                              double wire_radius_mm);
 
 /// Stiffness of the wall under the end of the wire [N/mm]: a flat punch of radius r on a half space, 2 E' r.
 /// Source   [Johnson1985 §3.8]

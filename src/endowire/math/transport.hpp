@@ -24,7 +24,8 @@ namespace endowire::math {
 }
 
 /// The unit vector along the part of `director` that is normal to the unit `axis`.
-[[nodiscard]] inline Eigen::Vector3d normal_part(const Eigen::Vector3d& director, const Eigen::Vector3d& axis) {
+[[nodiscard]] inline Eigen::Vector3d normal_part(const Eigen::Vector3d& director,
+                                                 const Eigen::Vector3d& axis) {
   return (director - axis * axis.dot(director)).normalized();
 }
 

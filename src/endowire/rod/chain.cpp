@@ -11,7 +11,9 @@ namespace endowire::rod {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// 1 g·m/s² = 1e-3 N.
 constexpr double kGramMetreToNewton = 1e-3;
@@ -56,13 +58,14 @@ void fill_material(const MaterialLine& line, const std::vector<double>& arc_mm, 
   fill_material_from(line, 0, gravity_m_per_s2, fluid_density_g_per_mm3, material);
 }
 
-void fill_material_from(const MaterialLine& line, int first, double gravity_m_per_s2, double fluid_density_g_per_mm3,
-                        ChainMaterial& material) {
+void fill_material_from(const MaterialLine& line, int first, double gravity_m_per_s2,
+                        double fluid_density_g_per_mm3, ChainMaterial& material) {
   const int rods = material.rods();
   const auto& arc = material.arc_mm;
   for (int i = std::max(0, first - 1); i < rods; ++i) {
     material.length_mm[at(i)] = arc[at(i + 1)] - arc[at(i)];
-    material.stretch_n_per_mm[at(i)] = line.axial_rigidity_n(arc[at(i)], arc[at(i + 1)]) / material.length_mm[at(i)];
+    material.stretch_n_per_mm[at(i)] =
+        line.axial_rigidity_n(arc[at(i)], arc[at(i + 1)]) / material.length_mm[at(i)];
   }
   for (int j = std::max(0, first - 1); j <= rods; ++j) {
     const double from = j == 0 ? arc[0] : 0.5 * (arc[at(j - 1)] + arc[at(j)]);
@@ -92,7 +95,8 @@ double chain_energy(const ChainMaterial& material, const ChainShape& shape) {
     energy += 0.5 * material.stretch_n_per_mm[at(i)] * stretch * stretch;
   }
   for (int j = 1; j < rods; ++j) {
-    energy += joint_energy(material.joints[at(j)], shape.frames[at(j)], shape.frames[at(j - 1)], shape.twist_rad[at(j)]);
+    energy += joint_energy(material.joints[at(j)], shape.frames[at(j)], shape.frames[at(j - 1)],
+                           shape.twist_rad[at(j)]);
   }
   return energy;
 }
@@ -162,8 +166,8 @@ void add_joint(const JointDerivatives& d, const Frame& hand_side, double hand_le
   hessian.lower(own + 3, own + 3) += h(2, 2);
 }
 
-double add_stretch(double stiffness, double rest_length, double geometric_force, const Eigen::Vector3d& t, int first,
-                   math::BandMatrix& hessian, std::vector<double>& gradient) {
+double add_stretch(double stiffness, double rest_length, double geometric_force, const Eigen::Vector3d& t,
+                   int first, math::BandMatrix& hessian, std::vector<double>& gradient) {
   const double length = t.norm();
   const Eigen::Vector3d e = t / length;
   const double force = stiffness * (length - rest_length);
@@ -183,16 +187,18 @@ double add_stretch(double stiffness, double rest_length, double geometric_force,
 
 }  // namespace
 
-double add_joint_derivatives(const ChainMaterial& material, const ChainShape& shape, math::BandMatrix& hessian,
-                             std::vector<double>& gradient) {
+double add_joint_derivatives(const ChainMaterial& material, const ChainShape& shape,
+                             math::BandMatrix& hessian, std::vector<double>& gradient) {
   const int rods = shape.rods();
   double energy = 0.0;
   JointDerivatives d;
   for (int j = 1; j < rods; ++j) {
     const double hand_length = (shape.joints_mm[at(j)] - shape.joints_mm[at(j + 1)]).norm();
     const double tip_length = (shape.joints_mm[at(j - 1)] - shape.joints_mm[at(j)]).norm();
-    joint_derivatives(material.joints[at(j)], shape.frames[at(j)], shape.frames[at(j - 1)], shape.twist_rad[at(j)], d);
-    add_joint(d, shape.frames[at(j)], hand_length, shape.frames[at(j - 1)], tip_length, 4 * (j - 1), hessian, gradient);
+    joint_derivatives(material.joints[at(j)], shape.frames[at(j)], shape.frames[at(j - 1)],
+                      shape.twist_rad[at(j)], d);
+    add_joint(d, shape.frames[at(j)], hand_length, shape.frames[at(j - 1)], tip_length, 4 * (j - 1), hessian,
+              gradient);
     energy += d.energy_mj;
   }
   return energy;
@@ -203,8 +209,9 @@ double add_stretch_derivatives(const ChainMaterial& material, const ChainShape& 
                                std::vector<double>& gradient) {
   double energy = 0.0;
   for (int i = 0; i < shape.rods(); ++i) {
-    energy += add_stretch(material.stretch_n_per_mm[at(i)], material.length_mm[at(i)], geometric_force_n[at(i)],
-                          shape.joints_mm[at(i)] - shape.joints_mm[at(i + 1)], 4 * i, hessian, gradient);
+    energy +=
+        add_stretch(material.stretch_n_per_mm[at(i)], material.length_mm[at(i)], geometric_force_n[at(i)],
+                    shape.joints_mm[at(i)] - shape.joints_mm[at(i + 1)], 4 * i, hessian, gradient);
   }
   return energy;
 }
@@ -235,8 +242,9 @@ void solve_tridiagonal(TridiagonalScratch& s) {
 
 }  // namespace
 
-void geometric_force_n(const ChainMaterial& material, const ChainShape& shape, const std::vector<double>& gradient,
-                       const std::vector<char>& held, TridiagonalScratch& s, std::vector<double>& out) {
+void geometric_force_n(const ChainMaterial& material, const ChainShape& shape,
+                       const std::vector<double>& gradient, const std::vector<char>& held,
+                       TridiagonalScratch& s, std::vector<double>& out) {
   const int rods = shape.rods();
   s.resize(rods);
   out.resize(at(rods));
@@ -263,7 +271,7 @@ void geometric_force_n(const ChainMaterial& material, const ChainShape& shape, c
   for (int i = 0; i < rods; ++i) {
     const double present = axial_force_n(material, shape, i);
     const double balancing = s.rhs[at(i)];
-    out[at(i)] = present * balancing <= 0.0             ? 0.0
+    out[at(i)] = present * balancing <= 0.0                ? 0.0
                  : std::abs(present) < std::abs(balancing) ? present
                                                            : balancing;
   }
@@ -300,8 +308,8 @@ bool close_tip(const Eigen::Vector3d& wanted, const std::array<bool, 3>& held, C
       const double length = t.norm();
       const Eigen::Vector3d e = t / length;
       old = out.joints_mm[at(i)];
-      out.joints_mm[at(i)] = out.joints_mm[at(i + 1)] +
-                             length * (e + weight(i) * (lambda - e * e.dot(lambda))).normalized();
+      out.joints_mm[at(i)] =
+          out.joints_mm[at(i + 1)] + length * (e + weight(i) * (lambda - e * e.dot(lambda))).normalized();
     }
   }
   return false;
@@ -325,7 +333,8 @@ bool retract(const ChainShape& base, const std::vector<double>& direction, doubl
     if (!(length > 0.5 * t.norm()) || !(turned.dot(t) > 0.0)) return false;
     out.joints_mm[at(i)] = out.joints_mm[at(i + 1)] + length * turned.normalized();
   }
-  if ((tip_held[0] || tip_held[1] || tip_held[2]) && !close_tip(base.joints_mm[0] + step(0), tip_held, out)) return false;
+  if ((tip_held[0] || tip_held[1] || tip_held[2]) && !close_tip(base.joints_mm[0] + step(0), tip_held, out))
+    return false;
 
   for (int i = 0; i < rods; ++i) {
     const Frame& old = base.frames[at(i)];

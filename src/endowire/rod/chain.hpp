@@ -14,9 +14,9 @@ namespace endowire::rod {
 /// Unknowns of a chain are (x, y, z) of joint i and the spin of rod i, at 4i … 4i + 3.
 struct ChainShape {
   std::vector<Eigen::Vector3d> joints_mm;
-  std::vector<Frame> frames;         ///< one per rod, third column towards the tip
-  std::vector<double> spin_rad;      ///< unwrapped turn of each rod since it entered
-  std::vector<double> twist_rad;     ///< unwrapped twist at each joint (those at the ends unused)
+  std::vector<Frame> frames;      ///< one per rod, third column towards the tip
+  std::vector<double> spin_rad;   ///< unwrapped turn of each rod since it entered
+  std::vector<double> twist_rad;  ///< unwrapped twist at each joint (those at the ends unused)
 
   [[nodiscard]] int rods() const { return static_cast<int>(frames.size()); }
   void reserve(int rods);
@@ -25,11 +25,12 @@ struct ChainShape {
 
 /// What each rod and joint of a chain is made of.
 struct ChainMaterial {
-  std::vector<double> arc_mm;              ///< of each joint, from the tip
-  std::vector<JointMaterial> joints;       ///< of each joint; those at the ends unused
-  std::vector<double> length_mm;           ///< rest length of each rod
-  std::vector<double> stretch_n_per_mm;    ///< EA/l of each rod; 0 for a rod held in the sheath
-  std::vector<double> weight_n;            ///< weight less buoyancy of the half rods around each joint, per unit gravity
+  std::vector<double> arc_mm;            ///< of each joint, from the tip
+  std::vector<JointMaterial> joints;     ///< of each joint; those at the ends unused
+  std::vector<double> length_mm;         ///< rest length of each rod
+  std::vector<double> stretch_n_per_mm;  ///< EA/l of each rod; 0 for a rod held in the sheath
+  std::vector<double>
+      weight_n;  ///< weight less buoyancy of the half rods around each joint, per unit gravity
 
   [[nodiscard]] int rods() const { return static_cast<int>(length_mm.size()); }
   void reserve(int rods);
@@ -41,8 +42,8 @@ struct ChainMaterial {
 void fill_material(const MaterialLine& line, const std::vector<double>& arc_mm, double gravity_m_per_s2,
                    double fluid_density_g_per_mm3, ChainMaterial& material);
 /// The same for joints `first` … end only, after the chain changed there.
-void fill_material_from(const MaterialLine& line, int first, double gravity_m_per_s2, double fluid_density_g_per_mm3,
-                        ChainMaterial& material);
+void fill_material_from(const MaterialLine& line, int first, double gravity_m_per_s2,
+                        double fluid_density_g_per_mm3, ChainMaterial& material);
 
 /// Energy of bending, twist and stretch.
 ///
@@ -53,8 +54,8 @@ void fill_material_from(const MaterialLine& line, int first, double gravity_m_pe
 [[nodiscard]] double chain_energy(const ChainMaterial& material, const ChainShape& shape);
 
 /// Adds gradient and Hessian of bending, twist and kink; returns their energy.
-double add_joint_derivatives(const ChainMaterial& material, const ChainShape& shape, math::BandMatrix& hessian,
-                             std::vector<double>& gradient);
+double add_joint_derivatives(const ChainMaterial& material, const ChainShape& shape,
+                             math::BandMatrix& hessian, std::vector<double>& gradient);
 
 /// Adds gradient and Hessian of the stretch; returns its energy.
 ///
@@ -82,8 +83,9 @@ struct TridiagonalScratch {
 /// equal, so convergence stays quadratic.
 /// @param gradient  of everything but the stretch
 /// @param held      one per unknown; held joints do not balance
-void geometric_force_n(const ChainMaterial& material, const ChainShape& shape, const std::vector<double>& gradient,
-                       const std::vector<char>& held, TridiagonalScratch& scratch, std::vector<double>& out);
+void geometric_force_n(const ChainMaterial& material, const ChainShape& shape,
+                       const std::vector<double>& gradient, const std::vector<char>& held,
+                       TridiagonalScratch& scratch, std::vector<double>& out);
 
 /// Axial force in rod i, > 0 in tension [N].
 [[nodiscard]] double axial_force_n(const ChainMaterial& material, const ChainShape& shape, int rod);

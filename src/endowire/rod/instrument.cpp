@@ -46,7 +46,8 @@ void Instrument::validate(const std::string& where) const {
     check(place + "friction", s.friction, 0.0, 2.0, "0 … 2");
     check(place + "rest_curvature_per_mm", s.rest_curvature_per_mm, -2.0, 2.0, "-2 … 2");
     check(place + "rest_plane_rad", s.rest_plane_rad, -10.0, 10.0, "-10 … 10");
-    if (!(s.kink_curvature_per_mm > 0.0)) refuse(place + "kink_curvature_per_mm", s.kink_curvature_per_mm, "> 0");
+    if (!(s.kink_curvature_per_mm > 0.0))
+      refuse(place + "kink_curvature_per_mm", s.kink_curvature_per_mm, "> 0");
     check(place + "radiopacity", s.radiopacity, 0.0, 1000.0, "0 … 1000");
     if (s.kink_curvature_per_mm < 1.2 * std::abs(s.rest_curvature_per_mm)) {
       refuse(place + "kink_curvature_per_mm", s.kink_curvature_per_mm, "> 1.2 times rest_curvature_per_mm");

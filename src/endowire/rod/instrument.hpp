@@ -24,7 +24,7 @@ struct Section {
   double rest_curvature_per_mm = 0.0;    ///< κ0 of the unloaded shape; 0 is straight
   double rest_plane_rad = 0.0;           ///< direction of the rest curvature in the section plane
   double kink_curvature_per_mm = std::numeric_limits<double>::infinity();  ///< κ_m, > 0
-  double radiopacity = 1.0;              ///< relative to the shaft, >= 0 (imaging)
+  double radiopacity = 1.0;  ///< relative to the shaft, >= 0 (imaging)
 };
 
 /// A guidewire or catheter as data: what a file of `instruments/` holds.

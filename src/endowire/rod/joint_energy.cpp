@@ -21,7 +21,7 @@ AngleFactor angle_factor(double c) {
   const double y = 1.0 - c;
   if (y < 0.05) {
     double value = 0.0, first = 0.0, second = 0.0, a = 1.0, power = 1.0;  // power = yⁿ⁻² from n = 2 on
-    constexpr int kTerms = 14;  // (0.05/2)¹⁴ < 1e-22
+    constexpr int kTerms = 14;                                            // (0.05/2)¹⁴ < 1e-22
     double y_n = 1.0, y_n1 = 0.0;
     for (int n = 0; n < kTerms; ++n) {
       value += a * y_n;
@@ -49,11 +49,13 @@ struct KinkLaw {
 };
 
 KinkLaw kink_law(const JointMaterial& material, double phi) {
-  constexpr double kStart = 0.9;  // stiffening starts at 90 % of κ_m; five times EI κ_m is added at κ_m itself
+  constexpr double kStart =
+      0.9;  // stiffening starts at 90 % of κ_m; five times EI κ_m is added at κ_m itself
   const double width = (1.0 - kStart) * material.kink_per_mm;
   const double x = (phi / material.span_mm - kStart * material.kink_per_mm) / width;
   if (!(x > 0.0)) return {};
-  const double stiffness = 0.5 * material.bend_n_mm2.sum() * material.kink_per_mm * material.kink_per_mm / 6.0;
+  const double stiffness =
+      0.5 * material.bend_n_mm2.sum() * material.kink_per_mm * material.kink_per_mm / 6.0;
   const double scale = 1.0 / (material.span_mm * width);
   return {material.span_mm * stiffness * x * x * x, material.span_mm * stiffness * 3.0 * x * x * scale,
           material.span_mm * stiffness * 6.0 * x * scale * scale};
@@ -67,8 +69,8 @@ struct Side {
   double sign;
 };
 
-void add_side(const JointMaterial& material, const Side& side, const AngleFactor& k, const Turns& dc, const Matrix6& ddc,
-              JointDerivatives& out) {
+void add_side(const JointMaterial& material, const Side& side, const AngleFactor& k, const Turns& dc,
+              const Matrix6& ddc, JointDerivatives& out) {
   const auto& p = side.p;
   const int o = side.own;
   const int t = side.other;
@@ -155,7 +157,8 @@ void add_twist(const JointMaterial& material, const Eigen::Matrix3d& p, double t
   out.hessian += stiffness * (dm * dm.transpose() + misfit * ddm);
 }
 
-void add_kink(const JointMaterial& material, double c, const Turns& dc, const Matrix6& ddc, JointDerivatives& out) {
+void add_kink(const JointMaterial& material, double c, const Turns& dc, const Matrix6& ddc,
+              JointDerivatives& out) {
   if (!std::isfinite(material.kink_per_mm)) return;
   const double phi = std::acos(std::min(1.0, c));
   const KinkLaw law = kink_law(material, phi);
@@ -165,7 +168,8 @@ void add_kink(const JointMaterial& material, double c, const Turns& dc, const Ma
   const double ddphi = -c / (sine * sine * sine);
   out.energy_mj += law.value;
   out.gradient += law.first * dphi * dc;
-  out.hessian += (law.second * dphi * dphi + law.first * ddphi) * dc * dc.transpose() + law.first * dphi * ddc;
+  out.hessian +=
+      (law.second * dphi * dphi + law.first * ddphi) * dc * dc.transpose() + law.first * dphi * ddc;
 }
 
 }  // namespace
@@ -178,12 +182,15 @@ double twist_between(const Frame& hand_side, const Frame& tip_side, double near_
   return angle + kTurn * std::round((near_rad - angle) / kTurn);
 }
 
-double joint_energy(const JointMaterial& material, const Frame& hand_side, const Frame& tip_side, double twist_rad) {
+double joint_energy(const JointMaterial& material, const Frame& hand_side, const Frame& tip_side,
+                    double twist_rad) {
   const double c = hand_side.col(2).dot(tip_side.col(2));
   if (!(c > -1.0)) return std::numeric_limits<double>::infinity();
   const double k = angle_factor(std::min(c, 1.0)).value;
-  const Eigen::Vector2d hand(k * hand_side.col(0).dot(tip_side.col(2)), k * hand_side.col(1).dot(tip_side.col(2)));
-  const Eigen::Vector2d tip(-k * tip_side.col(0).dot(hand_side.col(2)), -k * tip_side.col(1).dot(hand_side.col(2)));
+  const Eigen::Vector2d hand(k * hand_side.col(0).dot(tip_side.col(2)),
+                             k * hand_side.col(1).dot(tip_side.col(2)));
+  const Eigen::Vector2d tip(-k * tip_side.col(0).dot(hand_side.col(2)),
+                            -k * tip_side.col(1).dot(hand_side.col(2)));
   double energy = 0.0;
   for (int a = 0; a < 2; ++a) {
     const double m_hand = hand[a] - material.rest_bend_rad[a];
@@ -196,8 +203,8 @@ double joint_energy(const JointMaterial& material, const Frame& hand_side, const
   return energy;
 }
 
-void joint_derivatives(const JointMaterial& material, const Frame& hand_side, const Frame& tip_side, double twist_rad,
-                       JointDerivatives& out, bool with_rest_gradient) {
+void joint_derivatives(const JointMaterial& material, const Frame& hand_side, const Frame& tip_side,
+                       double twist_rad, JointDerivatives& out, bool with_rest_gradient) {
   out = JointDerivatives{};
   const Eigen::Matrix3d p = hand_side.transpose() * tip_side;
   const Eigen::Matrix3d pt = p.transpose();
@@ -210,7 +217,8 @@ void joint_derivatives(const JointMaterial& material, const Frame& hand_side, co
     for (int b = 0; b < 2; ++b) ddc(a, 3 + b) = ddc(3 + b, a) = p(a, b);
   }
   const AngleFactor k = angle_factor(c);
-  const bool straight = material.rest_bend_rad.isZero(0.0) && material.bend_n_mm2[0] == material.bend_n_mm2[1];
+  const bool straight =
+      material.rest_bend_rad.isZero(0.0) && material.bend_n_mm2[0] == material.bend_n_mm2[1];
   if (straight && !with_rest_gradient) {
     add_straight(material, k, dc, ddc, out);
   } else {

@@ -10,11 +10,11 @@ using Frame = Eigen::Matrix3d;
 
 /// What the instrument is made of around one joint, integrated over the half rods on both sides.
 struct JointMaterial {
-  double span_mm = 1.0;                                    ///< l̄, half the length of the two rods
-  Eigen::Vector2d bend_n_mm2 = Eigen::Vector2d::Zero();    ///< EI₁, EI₂ (span over integrated compliance)
-  Eigen::Vector2d rest_bend_rad = Eigen::Vector2d::Zero(); ///< bias angle κ̄: the turn of the unloaded wire
-  double twist_n_mm2 = 0.0;                                ///< GJ
-  double rest_twist_rad = 0.0;                             ///< m̄
+  double span_mm = 1.0;                                  ///< l̄, half the length of the two rods
+  Eigen::Vector2d bend_n_mm2 = Eigen::Vector2d::Zero();  ///< EI₁, EI₂ (span over integrated compliance)
+  Eigen::Vector2d rest_bend_rad = Eigen::Vector2d::Zero();  ///< bias angle κ̄: the turn of the unloaded wire
+  double twist_n_mm2 = 0.0;                                 ///< GJ
+  double rest_twist_rad = 0.0;                              ///< m̄
   double kink_per_mm = std::numeric_limits<double>::infinity();  ///< κ_m
 };
 
@@ -57,8 +57,8 @@ struct JointDerivatives {
 /// @param hand_side, tip_side  frames of the two rods
 /// @param twist_rad            twist_between them
 /// @return                     energy [mJ], never negative
-[[nodiscard]] double joint_energy(const JointMaterial& material, const Frame& hand_side, const Frame& tip_side,
-                                  double twist_rad);
+[[nodiscard]] double joint_energy(const JointMaterial& material, const Frame& hand_side,
+                                  const Frame& tip_side, double twist_rad);
 
 /// The same with exact first and second derivatives. The second derivatives are those along great arcs of the
 /// tangents with frames transported in parallel from this state, which makes the Hessian symmetric.

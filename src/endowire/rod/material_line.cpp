@@ -44,7 +44,9 @@ double MaterialLine::over_sections(double from_mm, double to_mm, Integrand integ
     const double border = start_mm_[k] + section.length_mm;
     const double begin = std::max(from_mm, start_mm_[k]);
     const double end = std::min(to_mm, border);
-    const auto fraction = [&](double arc) { return std::clamp((arc - start_mm_[k]) / section.length_mm, 0.0, 1.0); };
+    const auto fraction = [&](double arc) {
+      return std::clamp((arc - start_mm_[k]) / section.length_mm, 0.0, 1.0);
+    };
     if (end > begin) sum += integrand(section, end - begin, fraction(begin), fraction(end));
     if (to_mm <= border) break;
     const bool last = k + 1 == start_mm_.size();
@@ -55,19 +57,24 @@ double MaterialLine::over_sections(double from_mm, double to_mm, Integrand integ
 }
 
 double MaterialLine::flexural_rigidity_n_mm2(double from_mm, double to_mm) const {
-  return (to_mm - from_mm) / over_sections(from_mm, to_mm, [](const Section& s, double length, double a, double b) {
-           return integrated_compliance(length, at(s.flexural_rigidity_n_mm2, a), at(s.flexural_rigidity_n_mm2, b));
+  return (to_mm - from_mm) /
+         over_sections(from_mm, to_mm, [](const Section& s, double length, double a, double b) {
+           return integrated_compliance(length, at(s.flexural_rigidity_n_mm2, a),
+                                        at(s.flexural_rigidity_n_mm2, b));
          });
 }
 
 double MaterialLine::torsional_rigidity_n_mm2(double from_mm, double to_mm) const {
-  return (to_mm - from_mm) / over_sections(from_mm, to_mm, [](const Section& s, double length, double a, double b) {
-           return integrated_compliance(length, at(s.torsional_rigidity_n_mm2, a), at(s.torsional_rigidity_n_mm2, b));
+  return (to_mm - from_mm) /
+         over_sections(from_mm, to_mm, [](const Section& s, double length, double a, double b) {
+           return integrated_compliance(length, at(s.torsional_rigidity_n_mm2, a),
+                                        at(s.torsional_rigidity_n_mm2, b));
          });
 }
 
 double MaterialLine::axial_rigidity_n(double from_mm, double to_mm) const {
-  return (to_mm - from_mm) / over_sections(from_mm, to_mm, [](const Section& s, double length, double a, double b) {
+  return (to_mm - from_mm) /
+         over_sections(from_mm, to_mm, [](const Section& s, double length, double a, double b) {
            return integrated_compliance(length, at(s.axial_rigidity_n, a), at(s.axial_rigidity_n, b));
          });
 }
@@ -110,7 +117,9 @@ double MaterialLine::radius_mm(double arc_mm) const {
   return at(section.radius_mm, std::clamp((arc_mm - start_mm_[k]) / section.length_mm, 0.0, 1.0));
 }
 
-double MaterialLine::friction(double arc_mm) const { return instrument_.sections[section_at(arc_mm)].friction; }
+double MaterialLine::friction(double arc_mm) const {
+  return instrument_.sections[section_at(arc_mm)].friction;
+}
 
 Eigen::Vector2d MaterialLine::rest_curvature_per_mm(double arc_mm) const {
   const Section& section = instrument_.sections[section_at(arc_mm)];

@@ -11,7 +11,8 @@ std::vector<double> uniform_grid(const rod::MaterialLine& line, double rod_lengt
     const double from = arcs.back();
     double length = rod_length_mm;
     // The curvature ahead may begin within the rod: halve until the turn of this rod is small enough.
-    while (length > kShortest_mm && line.rest_bend_rad(from, from + length).norm() > max_bias_rad) length *= 0.5;
+    while (length > kShortest_mm && line.rest_bend_rad(from, from + length).norm() > max_bias_rad)
+      length *= 0.5;
     arcs.push_back(from + std::max(length, kShortest_mm));
   }
   return arcs;

@@ -7,7 +7,9 @@ namespace endowire::sim {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 constexpr double kWindow_mm = 5.0;
 
@@ -70,7 +72,8 @@ void fill_snapshot(const ChainProblem& problem, const rod::MaterialLine& line, S
     if (s.walls == 0 || s.normal_n <= 0.0) continue;
     const Eigen::Vector3d normal = problem.contact.normal_force_n(shape, i);
     const double friction = problem.contact.friction_force_n(shape, i).norm();
-    for (const auto& [joint, weight] : {std::pair{s.rod, 1.0 - s.fraction}, std::pair{s.rod + 1, s.fraction}}) {
+    for (const auto& [joint, weight] :
+         {std::pair{s.rod, 1.0 - s.fraction}, std::pair{s.rod + 1, s.fraction}}) {
       SnapshotPoint& p = out.points[at(joint)];
       const double share = weight / problem.material.joints[at(joint)].span_mm;
       p.wall_force_n_per_mm += share * s.normal_n;

@@ -9,10 +9,11 @@ namespace endowire::sim {
 
 /// Wall forces of a state, summed over windows of 5 mm of wire: single samples mean nothing.
 struct WallForces {
-  double max_window_n = 0.0;    ///< largest over all windows
-  double tip_window_n = 0.0;    ///< of the window at the tip
+  double max_window_n = 0.0;  ///< largest over all windows
+  double tip_window_n = 0.0;  ///< of the window at the tip
   double max_deflection_mm = 0.0;
-  double narrowest_clearance_mm = 0.0;  ///< lumen radius less wire radius, where a touching sample has least; > 0 if none
+  double narrowest_clearance_mm =
+      0.0;  ///< lumen radius less wire radius, where a touching sample has least; > 0 if none
   Eigen::Vector3d narrowest_at_mm = Eigen::Vector3d::Zero();
 };
 

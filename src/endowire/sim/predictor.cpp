@@ -8,11 +8,13 @@ namespace endowire::sim {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// Point of the present polyline at a material arc; straight beyond both ends. `rod` is where the last look-up was.
-Eigen::Vector3d point_at(const rod::ChainMaterial& material, const std::vector<Eigen::Vector3d>& joints, double arc,
-                         int& rod) {
+Eigen::Vector3d point_at(const rod::ChainMaterial& material, const std::vector<Eigen::Vector3d>& joints,
+                         double arc, int& rod) {
   const int rods = material.rods();
   while (rod > 0 && arc < material.arc_mm[at(rod)]) --rod;
   while (rod + 1 < rods && arc >= material.arc_mm[at(rod + 1)]) ++rod;
@@ -55,7 +57,8 @@ void predict(const rod::ChainMaterial& material, const Eigen::Vector3d& sheath_p
     frame.col(2) = e;
   }
   for (int j = 1; j < n; ++j) {
-    shape.twist_rad[at(j)] = rod::twist_between(shape.frames[at(j)], shape.frames[at(j - 1)], shape.twist_rad[at(j)]);
+    shape.twist_rad[at(j)] =
+        rod::twist_between(shape.frames[at(j)], shape.frames[at(j - 1)], shape.twist_rad[at(j)]);
   }
 }
 

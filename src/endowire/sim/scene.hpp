@@ -18,15 +18,15 @@ using contact::WallSpec;
 
 /// Numerical parameters; none of them shapes the result (tests change each tenfold).
 struct SolverSpec {
-  double rod_length_mm = 4.0;           ///< longest rod, 0.2 … 20
+  double rod_length_mm = 4.0;  ///< longest rod, 0.2 … 20
   double correction_tolerance_mm = 1e-3;
   double correction_tolerance_deg = 1e-2;
-  double force_tolerance = 1e-6;        ///< of the largest internal force or moment
-  double proximal_scale = 1.0;          ///< scales the term that guides through a snap
-  double stick_stiffness_ratio = 1.0;   ///< tangential over normal wall stiffness while sticking
+  double force_tolerance = 1e-6;       ///< of the largest internal force or moment
+  double proximal_scale = 1.0;         ///< scales the term that guides through a snap
+  double stick_stiffness_ratio = 1.0;  ///< tangential over normal wall stiffness while sticking
   double grip_stiffness_n_per_mm = 1000.0;
-  int max_iterations = 60;              ///< Newton iterations before a step is split
-  int max_splits = 6;                   ///< halvings of one step before it is reported as not converged
+  int max_iterations = 60;  ///< Newton iterations before a step is split
+  int max_splits = 6;       ///< halvings of one step before it is reported as not converged
 };
 
 struct SimulationSpec {

@@ -11,7 +11,8 @@ namespace endowire::sim {
 /// All that a simulation remembers between two steps, as a value. Two simulations with equal states and equal
 /// vessel, instrument, access and spec give equal bits for ever after.
 struct State {
-  double inserted_mm = 0.0;      ///< length of wire beyond the end of the sheath; small or negative: tip in the sheath
+  double inserted_mm =
+      0.0;  ///< length of wire beyond the end of the sheath; small or negative: tip in the sheath
   double hand_turn_rad = 0.0;    ///< unwrapped turn of the wire at the sheath
   double grip_stretch_mm = 0.0;  ///< hand ahead of the wire, elastic: pushes
   double grip_twist_rad = 0.0;   ///< same, about the axis
