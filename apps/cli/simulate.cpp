@@ -105,6 +105,7 @@ void play(Run& run, sim::Simulation& simulation, io::RunOutput& output, Progress
   const std::vector<io::TimedCommand> commands = io::commands_of(run.scene);
   const auto count = static_cast<std::uint64_t>(commands.size());
   run.forces.reserve(commands.size());
+  sim::Snapshot on_the_way;
   for (std::uint64_t step = 1; step <= count; ++step) {
     const io::TimedCommand& timed = commands[step - 1];
     output.command({step, timed.time_s, timed.command});
@@ -113,6 +114,12 @@ void play(Run& run, sim::Simulation& simulation, io::RunOutput& output, Progress
     const double step_us = 1e6 * seconds_since(start);
     run.statistics.add(timed.time_s, report, step_us);
     run.forces.push_back({report.inserted_length_mm, report.push_force_n});
+    for (int k = 0; k < simulation.waypoints(); ++k) {
+      const double before_s = step > 1 ? commands[step - 2].time_s : 0.0;
+      const double share = (k + 1.0) / (simulation.waypoints() + 1.0);
+      simulation.waypoint(k, on_the_way);
+      output.waypoint(step, k, before_s + share * (timed.time_s - before_s), on_the_way);
+    }
     simulation.snapshot(run.last);
     output.shape(step, timed.time_s, run.last);
     if (step % hash_interval == 0 || step == count) output.state_hash({step, simulation.state_hash()});

@@ -10,7 +10,9 @@ namespace endowire::contact {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// Below this total normal force nothing rubs: the weight of a centimetre of wire.
 constexpr double kRubbingFloor_n = 1e-4;
@@ -88,12 +90,26 @@ bool reachable(const vessel::Field& field, const Eigen::Vector3d& from, const Ei
   return (reachable_point_mm(field, from, to) - to).norm() < 1e-9;
 }
 
+/// Whether all walls around two samples have one normal: then no ridge lies between them.
+bool walls_agree(const Sample& a, const Sample& b) {
+  const Eigen::Vector3d n = a.wall[0].normal.normalized();
+  for (const Sample* s : {&a, &b}) {
+    for (int k = 0; k < s->walls; ++k) {
+      const LocalWall& wall = s->wall[at(k)];
+      if (wall.ridge || n.dot(wall.normal.normalized()) < kSameNormal) return false;
+    }
+  }
+  return true;
+}
+
 void set_stiffness(Sample& s) {
   s.stiffness_n_per_mm = s.foundation_n_per_mm2 * s.share_mm + s.tip_cap_n_per_mm;
   s.stick_stiffness_n_per_mm = s.stick_ratio * s.stiffness_n_per_mm;
 }
 
-FrictionLaw friction_of(const Sample& s) { return {s.stick_stiffness_n_per_mm, s.friction * s.lagged_normal_n}; }
+FrictionLaw friction_of(const Sample& s) {
+  return {s.stick_stiffness_n_per_mm, s.friction * s.lagged_normal_n};
+}
 
 }  // namespace
 
@@ -115,9 +131,9 @@ void ContactSet::reserve(int rods, std::size_t samples) {
   start_shape_.reserve(rods);
 }
 
-void ContactSet::place(const rod::MaterialLine& line, const rod::ChainMaterial& material, const rod::ChainShape& shape,
-                       int rods_in_lumen, const vessel::Field& field, const ContactSpec& spec,
-                       const FrictionMemory& memory) {
+void ContactSet::place(const rod::MaterialLine& line, const rod::ChainMaterial& material,
+                       const rod::ChainShape& shape, int rods_in_lumen, const vessel::Field& field,
+                       const ContactSpec& spec, const FrictionMemory& memory) {
   samples_.clear();
   memory_.arc_mm.assign(memory.arc_mm.begin(), memory.arc_mm.end());
   memory_.anchor_mm.assign(memory.anchor_mm.begin(), memory.anchor_mm.end());
@@ -150,8 +166,8 @@ void ContactSet::place(const rod::MaterialLine& line, const rod::ChainMaterial& 
   }
 }
 
-void ContactSet::detect_sample(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec,
-                               double share, Sample& s) const {
+void ContactSet::detect_sample(const rod::ChainShape& shape, const vessel::Field& field,
+                               const ContactSpec& spec, double share, Sample& s) const {
   const Eigen::Vector3d target = s.detected_at_mm + share * (s.position_mm(shape) - s.detected_at_mm);
   s.detected_at_mm = slid_point_mm(field, s.detected_at_mm, target, s.radius_mm);
   s.wrong = false;
@@ -195,7 +211,7 @@ int ContactSet::add_over_ridges(const rod::MaterialLine& line, const rod::ChainM
     if (gap <= 1.5 * kRidgeStep_mm) continue;
     // φ falls by no more than the distance: two samples that are clear of the wall by the gap between them hide nothing.
     if (a.walls == 0 && b.walls == 0 && a.clearance_mm + b.clearance_mm > gap) continue;
-    if (a.walls > 0 && b.walls > 0 && a.wall[0].normal.dot(b.wall[0].normal) > kSameNormal) continue;
+    if (a.walls > 0 && b.walls > 0 && walls_agree(a, b)) continue;
     const int points = static_cast<int>(std::ceil(gap / kRidgeStep_mm));
     double deepest = kRidgeDip_mm;
     double where = -1.0;
@@ -237,8 +253,8 @@ void ContactSet::add_between(std::size_t before, double arc_mm, const rod::Mater
   std::size_t k = 0;
   recall(memory_, k, s);
   // It has followed its neighbours on their way: detection goes on from between them.
-  s.detected_at_mm = s.position_mm(shape) +
-                     0.5 * (a.detected_at_mm - a.position_mm(shape) + b.detected_at_mm - b.position_mm(shape));
+  s.detected_at_mm = s.position_mm(shape) + 0.5 * (a.detected_at_mm - a.position_mm(shape) +
+                                                   b.detected_at_mm - b.position_mm(shape));
   s.wrong = true;
   samples_.insert(samples_.begin() + static_cast<std::ptrdiff_t>(before) + 1, s);
 }
@@ -351,8 +367,8 @@ void ContactSet::renew_lagged() {
   for (Sample& s : samples_) s.lagged_normal_n = s.normal_n;
 }
 
-Verification ContactSet::verify(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec,
-                                bool rough_field) {
+Verification ContactSet::verify(const rod::ChainShape& shape, const vessel::Field& field,
+                                const ContactSpec& spec, bool rough_field) {
   Verification result;
   for (Sample& s : samples_) {
     s.wrong = false;
@@ -370,7 +386,9 @@ Verification ContactSet::verify(const rod::ChainShape& shape, const vessel::Fiel
     }
     result.gap_error_mm = std::max(result.gap_error_mm, error);
     // At the very place of detection the walls are the field; what they still miss there is the field's own roughness.
-    s.wrong = error > (rough_field || u.norm() < kAtDetection_mm ? std::max(spec.gap_error_mm, field.error_mm()) : spec.gap_error_mm);
+    s.wrong =
+        error > (rough_field || u.norm() < kAtDetection_mm ? std::max(spec.gap_error_mm, field.error_mm())
+                                                           : spec.gap_error_mm);
     result.wrong_samples += s.wrong ? 1 : 0;
   }
   return result;
@@ -390,7 +408,8 @@ void ContactSet::remember(const rod::ChainShape& shape, FrictionMemory& memory) 
   for (const Sample& s : samples_) {
     memory.arc_mm.push_back(s.arc_mm);
     const bool rubs = s.walls > 0 && s.friction > 0.0 && s.lagged_normal_n > 0.0;
-    memory.anchor_mm.push_back(rubs ? friction_anchor(friction_of(s), slip_of(s, shape)) : Eigen::Vector2d::Zero());
+    memory.anchor_mm.push_back(rubs ? friction_anchor(friction_of(s), slip_of(s, shape))
+                                    : Eigen::Vector2d::Zero());
     memory.normal_n_per_mm.push_back(s.walls > 0 ? s.normal_n / s.share_mm : 0.0);
   }
 }
@@ -401,7 +420,8 @@ Eigen::Vector3d ContactSet::normal_force_n(const rod::ChainShape& shape, std::si
   const Eigen::Vector3d u = s.position_mm(shape) - s.detected_at_mm;
   for (int k = 0; k < s.walls; ++k) {
     const LocalHeight height = local_height_derivatives(s.wall[at(k)], u);
-    force += wall_response(s.stiffness_n_per_mm, s.cap_mm, s.radius_mm - height.value_mm).force_n * height.gradient;
+    force += wall_response(s.stiffness_n_per_mm, s.cap_mm, s.radius_mm - height.value_mm).force_n *
+             height.gradient;
   }
   return force;
 }

@@ -48,7 +48,7 @@ struct Sample {
   // At the state evaluated last.
   double normal_n = 0.0;
   double deflection_mm = 0.0;
-  bool wrong = false;                     ///< found by the last verification
+  bool wrong = false;  ///< found by the last verification
   /// What the present quadratic model has of each wall: as its derivatives say, anticipated, or anticipated and dropped
   /// again, which is final: no wall comes and goes within one model.
   enum class InModel : char { derived, anticipated, dropped };
@@ -74,10 +74,11 @@ struct FrictionMemory {
 struct ContactSpec {
   WallSpec wall;
   double stick_stiffness_ratio = 1.0;  ///< tangential over normal wall stiffness, Mindlin: 2/3 … 1
-  double reach_mm = 1.0;               ///< walls nearer than this to the surface of the wire are made constraints
-  double gap_error_mm = 0.02;          ///< largest error of a gap against the field that a final state may have; within
-                                       ///< 0.1 mm of the place of detection the field's own error, if that is larger
-  double max_share_mm = 2.0;           ///< samples are at most half a lumen radius, and this, apart
+  double reach_mm = 1.0;  ///< walls nearer than this to the surface of the wire are made constraints
+  double gap_error_mm =
+      0.02;  ///< largest error of a gap against the field that a final state may have; within
+             ///< 0.1 mm of the place of detection the field's own error, if that is larger
+  double max_share_mm = 2.0;  ///< samples are at most half a lumen radius, and this, apart
 };
 
 /// Largest disagreement between the local walls and the field, where it matters for contact.
@@ -96,7 +97,8 @@ class ContactSet {
   /// Chooses the samples of a converged shape, on joints and along rods 0 … rods_in_lumen − 1, spaced by the local
   /// lumen radius, and gives each its friction history.
   void place(const rod::MaterialLine& line, const rod::ChainMaterial& material, const rod::ChainShape& shape,
-             int rods_in_lumen, const vessel::Field& field, const ContactSpec& spec, const FrictionMemory& memory);
+             int rods_in_lumen, const vessel::Field& field, const ContactSpec& spec,
+             const FrictionMemory& memory);
   void clear() { samples_.clear(); }
 
   /// Detection: the walls around every sample at its place in `shape`, reached on a path that crosses no wall.
@@ -105,18 +107,20 @@ class ContactSet {
   /// @param share  of the way from the place of the last detection; less than 1 bisects when two detections contradict
   ///               each other, as on the two sides of a ridge
   /// @return       number of samples detected
-  int redetect(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec, double share);
+  int redetect(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec,
+               double share);
 
   /// Adds samples where the wall reaches between two others: over a ridge, such as a carina or the edge of a facet, a
   /// straight rod dips deeper into the wall than samples on both sides of it see. They are not detected yet but marked wrong.
   /// @return  number of samples added
-  int add_over_ridges(const rod::MaterialLine& line, const rod::ChainMaterial& material, const rod::ChainShape& shape,
-                      const vessel::Field& field);
+  int add_over_ridges(const rod::MaterialLine& line, const rod::ChainMaterial& material,
+                      const rod::ChainShape& shape, const vessel::Field& field);
 
   /// Energy of wall and friction (with lagged normal forces); updates the samples' normal forces.
   [[nodiscard]] double energy_mj(const rod::ChainShape& shape);
   /// Adds gradient and Hessian; returns the energy.
-  double add_derivatives(const rod::ChainShape& shape, math::BandMatrix& hessian, std::vector<double>& gradient);
+  double add_derivatives(const rod::ChainShape& shape, math::BandMatrix& hessian,
+                         std::vector<double>& gradient);
 
   /// Adds to a quadratic model the walls that a step would run into, takes out those that it no longer would, and, in the first model after a detection, softens those
   /// that the prediction lies deep in: their force says nothing yet. `hand_joint` is not given anything.
@@ -132,8 +136,8 @@ class ContactSet {
   /// Compares the local walls with the field at a shape and marks the samples that are off by more than spec.gap_error_mm.
   /// @param rough_field  allow the field's own stated error instead: where detections keep contradicting each other at one
   ///                     place, it is the field that is uneven
-  [[nodiscard]] Verification verify(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec,
-                                    bool rough_field = false);
+  [[nodiscard]] Verification verify(const rod::ChainShape& shape, const vessel::Field& field,
+                                    const ContactSpec& spec, bool rough_field = false);
 
   /// Marks as wrong the samples that moved further from their place of detection than their clearance and `region_mm`.
   int mark_outside(const rod::ChainShape& shape, double region_mm);
@@ -149,10 +153,10 @@ class ContactSet {
   FrictionMemory memory_;        ///< of the last converged state
   rod::ChainShape start_shape_;  ///< the last converged state
 
-  void add_between(std::size_t before, double arc_mm, const rod::MaterialLine& line, const rod::ChainMaterial& material,
-                   const rod::ChainShape& shape);
-  void detect_sample(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec, double share,
-                     Sample& sample) const;
+  void add_between(std::size_t before, double arc_mm, const rod::MaterialLine& line,
+                   const rod::ChainMaterial& material, const rod::ChainShape& shape);
+  void detect_sample(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec,
+                     double share, Sample& sample) const;
 
   std::vector<Sample> samples_;
   int models_since_detection_ = 0;

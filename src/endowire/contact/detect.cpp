@@ -42,11 +42,13 @@ double wall_curvature(double level_set, double height_mm, double lumen_radius_mm
   return curvature > kCornerCurvature_radii / lumen_radius_mm ? 0.0 : curvature;
 }
 
-PrincipalCurvatures principal_curvatures(const vessel::Field& field, const Eigen::Vector3d& point, double height,
-                                         const Eigen::Vector3d& e1, const Eigen::Vector3d& e2, double lumen_radius) {
+PrincipalCurvatures principal_curvatures(const vessel::Field& field, const Eigen::Vector3d& point,
+                                         double height, const Eigen::Vector3d& e1, const Eigen::Vector3d& e2,
+                                         double lumen_radius) {
   const double step = std::min(kCurvatureStep_mm, kCurvatureStep_radii * lumen_radius);
   const auto slope = [&](const Eigen::Vector3d& e) {
-    return Eigen::Vector3d((field.at(point + step * e).gradient - field.at(point - step * e).gradient) / (2.0 * step));
+    return Eigen::Vector3d((field.at(point + step * e).gradient - field.at(point - step * e).gradient) /
+                           (2.0 * step));
   };
   const Eigen::Vector3d s1 = slope(e1);
   const Eigen::Vector3d s2 = slope(e2);
@@ -56,7 +58,8 @@ PrincipalCurvatures principal_curvatures(const vessel::Field& field, const Eigen
   const double angle = 0.5 * std::atan2(2.0 * c, a - b);
   const double mean = 0.5 * (a + b);
   const double radius = std::hypot(0.5 * (a - b), c);
-  PrincipalCurvatures k{std::cos(angle) * e1 + std::sin(angle) * e2, std::cos(angle) * e2 - std::sin(angle) * e1,
+  PrincipalCurvatures k{std::cos(angle) * e1 + std::sin(angle) * e2,
+                        std::cos(angle) * e2 - std::sin(angle) * e1,
                         wall_curvature(mean + radius, height, lumen_radius),
                         wall_curvature(mean - radius, height, lumen_radius)};
   if (std::abs(k.second_per_mm) > std::abs(k.first_per_mm)) {
@@ -67,7 +70,8 @@ PrincipalCurvatures principal_curvatures(const vessel::Field& field, const Eigen
 }
 
 /// Turns a convex wall into the two planes on both sides of its ridge, at the sample as high as the field says.
-void make_ridge(const vessel::Field& field, const Eigen::Vector3d& q, double height, double reach, LocalWall& wall) {
+void make_ridge(const vessel::Field& field, const Eigen::Vector3d& q, double height, double reach,
+                LocalWall& wall) {
   const Eigen::Vector3d offset = reach * wall.first;
   const vessel::WallDistance one = field.at(q + offset);
   const vessel::WallDistance other = field.at(q - offset);
@@ -112,8 +116,8 @@ Eigen::Vector3d reachable_point_mm(const vessel::Field& field, const Eigen::Vect
   return length > 0.0 ? Eigen::Vector3d(from_mm + travelled / length * (to_mm - from_mm)) : from_mm;
 }
 
-Eigen::Vector3d slid_point_mm(const vessel::Field& field, const Eigen::Vector3d& from_mm, const Eigen::Vector3d& to_mm,
-                              double radius_mm) {
+Eigen::Vector3d slid_point_mm(const vessel::Field& field, const Eigen::Vector3d& from_mm,
+                              const Eigen::Vector3d& to_mm, double radius_mm) {
   Eigen::Vector3d at = reachable_point_mm(field, from_mm, to_mm);
   for (int slide = 0; slide < 2; ++slide) {
     Eigen::Vector3d left = to_mm - at;
@@ -151,8 +155,8 @@ void find_local_walls(const vessel::Field& field, const ContactSpec& spec, const
 
   // Low over the wall the field is smooth; at the middle of a lumen its gradient jumps.
   const double height = std::min(nearest.distance_mm, 0.3 * sample.lumen_radius_mm);
-  const PrincipalCurvatures k =
-      principal_curvatures(field, q - (nearest.distance_mm - height) * n, height, e1, e2, sample.lumen_radius_mm);
+  const PrincipalCurvatures k = principal_curvatures(field, q - (nearest.distance_mm - height) * n, height,
+                                                     e1, e2, sample.lumen_radius_mm);
   sample.wall[0] = LocalWall{n, k.first, k.second, nearest.distance_mm, k.first_per_mm, k.second_per_mm};
   sample.walls = 1;
   const double reach = std::min(kProbe_mm, kProbe_radii * sample.lumen_radius_mm);
@@ -170,8 +174,12 @@ void find_local_walls(const vessel::Field& field, const ContactSpec& spec, const
       const Eigen::Vector3d first = math::any_normal(normal);
       // Over a ridge the plane would pass above the sample: no wall is nearer to it than the nearest one.
       sample.wall[static_cast<std::size_t>(sample.walls++)] =
-          LocalWall{normal, first, normal.cross(first),
-                    std::max(probe.distance_mm - normal.dot(offset), nearest.distance_mm), 0.0, 0.0};
+          LocalWall{normal,
+                    first,
+                    normal.cross(first),
+                    std::max(probe.distance_mm - normal.dot(offset), nearest.distance_mm),
+                    0.0,
+                    0.0};
     }
   }
 }

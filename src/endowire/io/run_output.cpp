@@ -54,6 +54,13 @@ void RunOutput::shape(std::uint64_t step, double time_s, const sim::Snapshot& sn
   series_.push_back({time_s, name});
 }
 
+void RunOutput::waypoint(std::uint64_t step, int index, double time_s, const sim::Snapshot& snapshot) {
+  if (!vtp_available() || snapshot.points.size() < 2) return;
+  const std::string name = fmt::format("{}/wire_{:06d}_on_the_way_{:02d}.vtp", steps_folder, step, index + 1);
+  write_wire_vtp(folder_ / name, snapshot, access_);
+  series_.push_back({time_s, name});
+}
+
 void RunOutput::finish(std::uint64_t steps, const sim::Snapshot& last) {
   recording_.end(steps);
   if (!vtp_available()) return;

@@ -32,6 +32,8 @@ class RunOutput {
   void command(const RecordedCommand& command) { recording_.command(command); }
   void state_hash(const RecordedHash& hash) { recording_.state(hash); }
   void shape(std::uint64_t step, double time_s, const sim::Snapshot& snapshot);
+  /// A shape that a step passed through in a snap; written before the step's own shape, at a time between.
+  void waypoint(std::uint64_t step, int index, double time_s, const sim::Snapshot& snapshot);
   /// Ends the recording and writes wire.pvd and wire.vtp.
   void finish(std::uint64_t steps, const sim::Snapshot& last);
   /// Writes one more file of the run into the folder.

@@ -11,7 +11,9 @@ namespace endowire::sim {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// Turn of a tangent about an axis, from a fixed normal of that axis, in the branch nearest to `near_rad`.
 double turn_about(const Eigen::Vector3d& axis, const Eigen::Vector3d& tangent, double near_rad) {
@@ -50,7 +52,9 @@ void ChainProblem::hold_joint(int joint, bool x, bool y, bool z) {
   held[at(4 * joint + 2)] |= static_cast<char>(z);
 }
 
-void ChainProblem::hold_spin(int rod) { held[at(4 * rod + 3)] = 1; }
+void ChainProblem::hold_spin(int rod) {
+  held[at(4 * rod + 3)] = 1;
+}
 
 void ChainProblem::clamp_hand_end() {
   const int n = shape.rods();
@@ -77,10 +81,12 @@ void ChainProblem::fit_sheath_rod(double inserted_mm) {
 double ChainProblem::potential(const rod::ChainShape& at_shape) {
   double energy = rod::chain_energy(material, at_shape);
   const int n = at_shape.rods();
-  for (int j = 0; j <= n; ++j) energy -= material.weight_n[at(j)] * loads.gravity_direction.dot(at_shape.joints_mm[at(j)]);
+  for (int j = 0; j <= n; ++j)
+    energy -= material.weight_n[at(j)] * loads.gravity_direction.dot(at_shape.joints_mm[at(j)]);
   energy -= loads.tip_force_n.dot(at_shape.joints_mm[0]);
   if (loads.tip_moment_n_mm != 0.0) {
-    energy -= loads.tip_moment_n_mm * turn_about(loads.tip_moment_axis, at_shape.frames[0].col(2), moment_turn_);
+    energy -=
+        loads.tip_moment_n_mm * turn_about(loads.tip_moment_axis, at_shape.frames[0].col(2), moment_turn_);
   }
   energy += contact.energy_mj(at_shape);
   return energy;
@@ -88,7 +94,8 @@ double ChainProblem::potential(const rod::ChainShape& at_shape) {
 
 double ChainProblem::energy_mj() {
   double energy = potential(shape);
-  if (feed.active) energy += grip_energy(feed.push, feed.stretch_mm) + grip_energy(feed.torque, feed.twist_rad);
+  if (feed.active)
+    energy += grip_energy(feed.push, feed.stretch_mm) + grip_energy(feed.torque, feed.twist_rad);
   return energy;
 }
 
@@ -132,7 +139,8 @@ void ChainProblem::onto_sheath_line(math::BandMatrix& hessian, std::vector<doubl
   for (int column = std::max(0, first - 8); column < first; ++column) {
     double sum = 0.0;
     for (int c = 0; c < 3; ++c) {
-      if (first + c - column <= math::BandMatrix::kHalfBandwidth) sum += d[c] * hessian.lower(first + c, column);
+      if (first + c - column <= math::BandMatrix::kHalfBandwidth)
+        sum += d[c] * hessian.lower(first + c, column);
     }
     hessian.lower(first, column) = sum;
   }
@@ -140,7 +148,8 @@ void ChainProblem::onto_sheath_line(math::BandMatrix& hessian, std::vector<doubl
   double spin = 0.0;
   for (int r = 0; r < 3; ++r) {
     spin += d[r] * hessian.lower(first + 3, first + r);
-    for (int c = 0; c < 3; ++c) diagonal += d[r] * d[c] * hessian.lower(first + std::max(r, c), first + std::min(r, c));
+    for (int c = 0; c < 3; ++c)
+      diagonal += d[r] * d[c] * hessian.lower(first + std::max(r, c), first + std::min(r, c));
   }
   hessian.lower(first, first) = diagonal;
   hessian.lower(first + 3, first) = spin;
@@ -154,9 +163,11 @@ double ChainProblem::add_feed(math::BandMatrix& hessian, std::vector<double>& gr
   // The span and the rest bend of the joint at the sheath grow with the wire that enters:
   //   ∂E/∂L = −E/l̄ + ∂E/∂κ̄ · κ0,  the configurational force of a sliding sleeve [Bigoni2015].
   rod::JointMaterial joint = material.joints[at(n - 1)];
-  joint.kink_per_mm = std::numeric_limits<double>::infinity();  // its law is taken at the span of the base state
+  joint.kink_per_mm =
+      std::numeric_limits<double>::infinity();  // its law is taken at the span of the base state
   rod::JointDerivatives d;
-  rod::joint_derivatives(joint, shape.frames[at(n - 1)], shape.frames[at(n - 2)], shape.twist_rad[at(n - 1)], d, true);
+  rod::joint_derivatives(joint, shape.frames[at(n - 1)], shape.frames[at(n - 2)], shape.twist_rad[at(n - 1)],
+                         d, true);
   const Eigen::Vector2d k0 = line->rest_curvature_per_mm(feed.inserted_mm);
   const double span = joint.span_mm;
   const double rest = d.rest_gradient.dot(k0);
@@ -207,7 +218,8 @@ bool ChainProblem::anticipate(const std::vector<double>& direction, math::BandMa
                               std::vector<double>& gradient) {
   if (contact.empty()) return false;
   to_cartesian(direction);
-  if (!contact.anticipate(shape, cartesian_, feed.active ? shape.rods() - 1 : -1, hessian, gradient)) return false;
+  if (!contact.anticipate(shape, cartesian_, feed.active ? shape.rods() - 1 : -1, hessian, gradient))
+    return false;
   hold(hessian, gradient);
   return true;
 }
@@ -253,7 +265,8 @@ void ChainProblem::accept_step() {
 
 bool ChainProblem::inside_region() const {
   for (const contact::Sample& s : contact.samples()) {
-    if ((s.position_mm(shape) - s.detected_at_mm).norm() > region_mm + std::max(0.0, s.clearance_mm)) return false;
+    if ((s.position_mm(shape) - s.detected_at_mm).norm() > region_mm + std::max(0.0, s.clearance_mm))
+      return false;
   }
   return true;
 }
@@ -270,9 +283,11 @@ void ChainProblem::measure_scales() {
   }
   for (int j = 1; j < n; ++j) {
     const rod::JointMaterial& joint = material.joints[at(j)];
-    const double angle = std::acos(std::clamp(shape.frames[at(j)].col(2).dot(shape.frames[at(j - 1)].col(2)), -1.0, 1.0));
+    const double angle =
+        std::acos(std::clamp(shape.frames[at(j)].col(2).dot(shape.frames[at(j - 1)].col(2)), -1.0, 1.0));
     const double bend = joint.bend_n_mm2.maxCoeff() * (angle + joint.rest_bend_rad.norm()) / joint.span_mm;
-    const double twist = joint.twist_n_mm2 * std::abs(shape.twist_rad[at(j)] - joint.rest_twist_rad) / joint.span_mm;
+    const double twist =
+        joint.twist_n_mm2 * std::abs(shape.twist_rad[at(j)] - joint.rest_twist_rad) / joint.span_mm;
     scales_.moment_n_mm = std::max({scales_.moment_n_mm, bend, twist});
   }
   for (const contact::Sample& s : contact.samples()) scales_.force_n = std::max(scales_.force_n, s.normal_n);

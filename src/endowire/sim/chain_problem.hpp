@@ -30,11 +30,11 @@ struct Feed {
   bool active = false;
   Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
-  double inserted_mm = 0.0;        ///< length beyond the sheath in the base state
-  contact::FrictionLaw push;       ///< [N/mm], [N]
-  contact::FrictionLaw torque;     ///< [N·mm/rad], [N·mm]
-  double stretch_mm = 0.0;         ///< hand ahead of wire in the base state: pushes
-  double twist_rad = 0.0;          ///< hand ahead of wire in the base state: turns it
+  double inserted_mm = 0.0;     ///< length beyond the sheath in the base state
+  contact::FrictionLaw push;    ///< [N/mm], [N]
+  contact::FrictionLaw torque;  ///< [N·mm/rad], [N·mm]
+  double stretch_mm = 0.0;      ///< hand ahead of wire in the base state: pushes
+  double twist_rad = 0.0;       ///< hand ahead of wire in the base state: turns it
 };
 
 /// A chain of rods with its loads, ends, contacts and hand, as a problem to minimise:
@@ -45,13 +45,13 @@ struct Feed {
 class ChainProblem final : public solve::Problem {
  public:
   rod::ChainMaterial material;
-  rod::ChainShape shape;            ///< base state
+  rod::ChainShape shape;  ///< base state
   Loads loads;
   Feed feed;
   contact::ContactSet contact;
   const rod::MaterialLine* line = nullptr;  ///< needed by a feed: what enters the lumen
-  std::vector<char> held;           ///< one per unknown: 4(n + 1)
-  double region_mm = 1e9;           ///< the base state may move this far from where detection saw it
+  std::vector<char> held;                   ///< one per unknown: 4(n + 1)
+  double region_mm = 1e9;                   ///< the base state may move this far from where detection saw it
 
   void reserve(int rods, std::size_t samples);
   /// No unknown held but joint n.

@@ -15,7 +15,9 @@ namespace endowire::sim {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// A joint enters when it is this far beyond the sheath, and leaves when it would be nearer than half of that: the rod at
 /// the sheath, twice as long, never gets so short that its stiffness spoils the matrix.
@@ -27,6 +29,9 @@ constexpr double kMaxBias_rad = 0.15;
 constexpr double kSnap_mm = 1.5;
 /// Local walls hold this far around the place of detection; a state beyond is detected anew.
 constexpr double kRegion_mm = 0.8;
+/// Shapes kept of the path of one step, and how far the wire moves between two of them.
+constexpr std::size_t kMaxWaypoints = 64;
+constexpr double kWaypoint_mm = 0.5;
 /// Corrections below which the walls are checked before the solution is polished.
 constexpr double kRough_mm = 0.03;
 constexpr double kRough_rad = 0.02;
@@ -40,7 +45,9 @@ constexpr int kBisectFrom = 3;
 constexpr int kUnevenFrom = 12;
 constexpr double kStandardGravity_floor = 1e-12;
 
-[[noreturn]] void refuse(const std::string& text) { throw base::InputError(text); }
+[[noreturn]] void refuse(const std::string& text) {
+  throw base::InputError(text);
+}
 
 std::string show(const Eigen::Vector3d& v) {
   std::ostringstream text;
@@ -50,22 +57,37 @@ std::string show(const Eigen::Vector3d& v) {
 
 }  // namespace
 
+namespace {
+
+/// Where in a flat list the joints of a shape lie that a step passed through.
+struct ShapeOnTheWay {
+  std::size_t first;
+  std::size_t joints;
+  double inserted_mm;
+};
+
+}  // namespace
+
 class Simulation::Impl {
  public:
-  Impl(std::shared_ptr<const vessel::Field> field, rod::Instrument instrument, Access access, SimulationSpec spec);
+  Impl(std::shared_ptr<const vessel::Field> field, rod::Instrument instrument, Access access,
+       SimulationSpec spec);
 
   const StepReport& step(const Command& command);
   void restore(const State& state);
   void save(State& out) const;
   void snapshot(Snapshot& out) const;
+  void waypoint(int index, Snapshot& out) const;
 
   State state_;  ///< the last converged state
   StepReport report_;
+  std::vector<ShapeOnTheWay> waypoints_;
 
  private:
   bool advance(const Command& command, int split);
   bool advance_once(const Command& command);
   bool settle();
+  void keep_waypoint();
   void enter(double inserted_mm, double turn_rad);
   void adapt_sheath(double inserted_mm);
   void insert_joint();
@@ -92,6 +114,7 @@ class Simulation::Impl {
   double hand_turn_rad_ = 0.0;
   std::vector<Eigen::Vector3d> trace_;
   std::vector<Eigen::Vector3d> predicted_;
+  std::vector<Eigen::Vector3d> waypoint_joints_;
 };
 
 Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrument instrument, Access access,
@@ -100,7 +123,8 @@ Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrume
   if (!(access_.direction.norm() > 1e-9) || !access_.direction.allFinite()) {
     refuse("access.direction is " + show(access_.direction) + "; must be a finite vector, not zero");
   }
-  if (!access_.position_mm.allFinite()) refuse("access.position_mm is " + show(access_.position_mm) + "; must be finite");
+  if (!access_.position_mm.allFinite())
+    refuse("access.position_mm is " + show(access_.position_mm) + "; must be finite");
   access_.direction.normalize();
   const double height = field_->at(access_.position_mm).distance_mm;
   if (!(height > 0.0)) {
@@ -112,8 +136,9 @@ Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrume
   const double radius = line_.radius_mm(0.0);
   if (height < radius) {
     std::ostringstream text;
-    text << "access.position_mm is " << show(access_.position_mm) << ", " << height << " mm from the wall; must be at least "
-         << radius << " mm, the radius of " << line_.instrument().model;
+    text << "access.position_mm is " << show(access_.position_mm) << ", " << height
+         << " mm from the wall; must be at least " << radius << " mm, the radius of "
+         << line_.instrument().model;
     refuse(text.str());
   }
 
@@ -153,6 +178,8 @@ Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrume
   friction_.reserve(samples);
   trace_.reserve(at(joints + 1));
   predicted_.reserve(at(joints + 1));
+  waypoints_.reserve(kMaxWaypoints);
+  waypoint_joints_.reserve(kMaxWaypoints * at(joints + 1));
   report_.events.reserve(16);
   state_.joints_mm.reserve(at(joints + 1));
   state_.directors.reserve(at(joints));
@@ -181,8 +208,10 @@ void Simulation::Impl::restore(const State& state) {
   const std::size_t rods = state.directors.size();
   const bool consistent = rods == 0 ? state.joints_mm.empty()
                                     : state.joints_mm.size() == rods + 1 && state.spin_rad.size() == rods &&
-                                          state.twist_rad.size() == rods + 1 && rods >= 2 && rods < grid_.size() + 1;
-  if (!consistent) refuse("state: sizes of joints, directors, spin and twist do not belong together or to this instrument");
+                                          state.twist_rad.size() == rods + 1 && rods >= 2 &&
+                                          rods < grid_.size() + 1;
+  if (!consistent)
+    refuse("state: sizes of joints, directors, spin and twist do not belong together or to this instrument");
   if (&state != &state_) state_ = state;
   rod::ChainShape& shape = problem_.shape;
   hand_turn_rad_ = state.hand_turn_rad;
@@ -209,7 +238,8 @@ void Simulation::Impl::restore(const State& state) {
   }
   friction_.arc_mm.assign(state.friction.arc_mm.begin(), state.friction.arc_mm.end());
   friction_.anchor_mm.assign(state.friction.anchor_mm.begin(), state.friction.anchor_mm.end());
-  friction_.normal_n_per_mm.assign(state.friction.normal_n_per_mm.begin(), state.friction.normal_n_per_mm.end());
+  friction_.normal_n_per_mm.assign(state.friction.normal_n_per_mm.begin(),
+                                   state.friction.normal_n_per_mm.end());
   problem_.contact.clear();
 }
 
@@ -299,7 +329,8 @@ void Simulation::Impl::remove_joint() {
 /// Joints enter or leave so that the rod at the sheath keeps a sound length before and after the coming motion.
 void Simulation::Impl::adapt_sheath(double inserted_mm) {
   const double least = std::min(inserted_mm, problem_.feed.inserted_mm);
-  while (problem_.shape.rods() > 2 && least - grid_[at(problem_.shape.rods() - 1)] < kLeave_mm) remove_joint();
+  while (problem_.shape.rods() > 2 && least - grid_[at(problem_.shape.rods() - 1)] < kLeave_mm)
+    remove_joint();
   while (problem_.shape.rods() + 1 < static_cast<int>(grid_.size()) &&
          least - grid_[at(problem_.shape.rods())] >= kEntry_mm) {
     insert_joint();
@@ -311,10 +342,13 @@ const StepReport& Simulation::Impl::step(const Command& command) {
   events.clear();
   report_ = StepReport{};
   report_.events = std::move(events);
+  waypoints_.clear();
+  waypoint_joints_.clear();
   report_.converged = true;
   const bool finite = std::isfinite(command.advance_mm) && std::isfinite(command.torque_rad);
-  const double pieces = std::max({1.0, std::ceil(std::abs(command.advance_mm) / spec_.max_advance_mm - 1e-9),
-                                  std::ceil(std::abs(command.torque_rad) * 180.0 / M_PI / spec_.max_torque_deg - 1e-9)});
+  const double pieces =
+      std::max({1.0, std::ceil(std::abs(command.advance_mm) / spec_.max_advance_mm - 1e-9),
+                std::ceil(std::abs(command.torque_rad) * 180.0 / M_PI / spec_.max_torque_deg - 1e-9)});
   constexpr double kMaxPieces = 1e6;
   if (!finite || pieces > kMaxPieces) {
     report_.converged = false;
@@ -325,21 +359,27 @@ const StepReport& Simulation::Impl::step(const Command& command) {
   }
   const double before_mm = state_.inserted_mm;
   const Command piece{command.advance_mm / pieces, command.torque_rad / pieces};
-  for (int k = 0; k < static_cast<int>(pieces) && report_.converged; ++k) report_.converged = advance(piece, 0);
+  for (int k = 0; k < static_cast<int>(pieces) && report_.converged; ++k)
+    report_.converged = advance(piece, 0);
   ++state_.steps;
   report_.hand_slip_mm = command.advance_mm - (state_.inserted_mm - before_mm);
-  if (!report_.converged) report_.events.push_back({EventKind::not_converged, report_.solve.force_residual_n, access_.position_mm});
+  if (!report_.converged)
+    report_.events.push_back({EventKind::not_converged, report_.solve.force_residual_n, access_.position_mm});
   measure();
   return report_;
 }
 
 /// One sub-step; halved and repeated when it fails. Afterwards the state is the last converged one.
 bool Simulation::Impl::advance(const Command& command, int split) {
+  const std::size_t waypoints = waypoints_.size();
+  const std::size_t waypoint_joints = waypoint_joints_.size();
   if (advance_once(command)) {
     finish(command);
     return true;
   }
   restore(state_);
+  waypoints_.erase(waypoints_.begin() + static_cast<std::ptrdiff_t>(waypoints), waypoints_.end());
+  waypoint_joints_.resize(waypoint_joints);
   if (split == spec_.solver.max_splits) return false;
   ++report_.splits;
   const Command half{0.5 * command.advance_mm, 0.5 * command.torque_rad};
@@ -349,7 +389,8 @@ bool Simulation::Impl::advance(const Command& command, int split) {
 bool Simulation::Impl::advance_once(const Command& command) {
   Feed& feed = problem_.feed;
   // The end of the wire stays outside: there is nothing left to push.
-  const double inserted = std::min(feed.inserted_mm + command.advance_mm, line_.length_mm() - spec_.solver.rod_length_mm);
+  const double inserted =
+      std::min(feed.inserted_mm + command.advance_mm, line_.length_mm() - spec_.solver.rod_length_mm);
   const double advance_mm = inserted - feed.inserted_mm;
   if (in_sheath()) {
     if (inserted < first_inside_mm()) {
@@ -358,8 +399,8 @@ bool Simulation::Impl::advance_once(const Command& command) {
     }
     enter(inserted, hand_turn_rad_ + command.torque_rad);
     problem_.contact.clear();
-    problem_.contact.place(line_, problem_.material, problem_.shape, problem_.shape.rods() - 1, *field_, contact_spec_,
-                           friction_);
+    problem_.contact.place(line_, problem_.material, problem_.shape, problem_.shape.rods() - 1, *field_,
+                           contact_spec_, friction_);
   } else {
     if (inserted < grid_[1] + kLeave_mm) {  // back into the sheath
       problem_.shape.joints_mm.clear();
@@ -373,14 +414,14 @@ bool Simulation::Impl::advance_once(const Command& command) {
       return true;
     }
     adapt_sheath(inserted);
-    problem_.contact.place(line_, problem_.material, problem_.shape, problem_.shape.rods() - 1, *field_, contact_spec_,
-                           friction_);
-    predict(problem_.material, access_.position_mm, access_.direction, inserted, advance_mm, command.torque_rad,
-            problem_.shape, trace_);
+    problem_.contact.place(line_, problem_.material, problem_.shape, problem_.shape.rods() - 1, *field_,
+                           contact_spec_, friction_);
+    predict(problem_.material, access_.position_mm, access_.direction, inserted, advance_mm,
+            command.torque_rad, problem_.shape, trace_);
     feed.inserted_mm = inserted;
     problem_.material.arc_mm.back() = 2.0 * inserted - grid_[at(problem_.shape.rods() - 1)];
-    rod::fill_material_from(line_, problem_.shape.rods() - 1, gravity_m_per_s2_, spec_.blood_density_g_per_mm3,
-                            problem_.material);
+    rod::fill_material_from(line_, problem_.shape.rods() - 1, gravity_m_per_s2_,
+                            spec_.blood_density_g_per_mm3, problem_.material);
     problem_.fit_sheath_rod(inserted);
   }
   const int n = problem_.shape.rods();
@@ -407,15 +448,19 @@ bool Simulation::Impl::settle() {
     const bool left_region = !problem_.inside_region();
     if (!report_.solve.converged() && !left_region) return false;
     ++report_.verifications;
-    const contact::Verification check = contact.verify(problem_.shape, *field_, contact_spec_, round >= kUnevenFrom);
+    const contact::Verification check =
+        contact.verify(problem_.shape, *field_, contact_spec_, round >= kUnevenFrom);
     const int wrong =
         check.wrong_samples +
-        (round < kUnevenFrom ? contact.add_over_ridges(line_, problem_.material, problem_.shape, *field_) : 0);
+        (round < kUnevenFrom ? contact.add_over_ridges(line_, problem_.material, problem_.shape, *field_)
+                             : 0);
     if (report_.solve.converged() && wrong == 0) {
       if (!rough) return true;
       rough = false;
       continue;
     }
+    if (wrong == 0 && measure_wall(problem_).max_deflection_mm < spec_.wall.max_deflection_mm)
+      keep_waypoint();
     // A state on its way that no wall contradicts goes on from where it is.
     if (wrong == 0) contact.mark_outside(problem_.shape, problem_.region_mm);
     report_.detections +=
@@ -423,6 +468,37 @@ bool Simulation::Impl::settle() {
   }
   report_.solve.termination = solve::Termination::left_domain;
   return false;
+}
+
+/// Keeps the present shape if the wire has moved since the last one kept.
+void Simulation::Impl::keep_waypoint() {
+  const std::vector<Eigen::Vector3d>& joints = problem_.shape.joints_mm;
+  if (waypoints_.size() == waypoints_.capacity() ||
+      waypoint_joints_.size() + joints.size() > waypoint_joints_.capacity()) {
+    return;
+  }
+  const Eigen::Vector3d* last = predicted_.data();
+  if (!waypoints_.empty() && waypoints_.back().joints == joints.size()) {
+    last = waypoint_joints_.data() + waypoints_.back().first;
+  }
+  double moved = 0.0;
+  for (std::size_t j = 0; j < joints.size(); ++j) moved = std::max(moved, (joints[j] - last[j]).norm());
+  if (moved < kWaypoint_mm) return;
+  waypoints_.push_back({waypoint_joints_.size(), joints.size(), problem_.feed.inserted_mm});
+  waypoint_joints_.insert(waypoint_joints_.end(), joints.begin(), joints.end());
+}
+
+void Simulation::Impl::waypoint(int index, Snapshot& out) const {
+  const ShapeOnTheWay& shape = waypoints_.at(static_cast<std::size_t>(index));
+  out = Snapshot{};
+  out.inserted_length_mm = shape.inserted_mm;
+  for (std::size_t j = 0; j < shape.joints; ++j) {
+    SnapshotPoint point;
+    point.position_mm = waypoint_joints_[shape.first + j];
+    point.arc_mm = j + 1 < shape.joints ? grid_[j] : 2.0 * shape.inserted_mm - grid_[j - 1];
+    point.radius_mm = line_.radius_mm(point.arc_mm);
+    out.points.push_back(point);
+  }
 }
 
 void Simulation::Impl::finish(const Command& command) {
@@ -488,10 +564,26 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-const StepReport& Simulation::step(const Command& command) { return impl_->step(command); }
-const State& Simulation::state() const { return impl_->state_; }
-void Simulation::restore(const State& state) { impl_->restore(state); }
-std::uint64_t Simulation::state_hash() const { return impl_->state_.hash(); }
-void Simulation::snapshot(Snapshot& out) const { impl_->snapshot(out); }
+const StepReport& Simulation::step(const Command& command) {
+  return impl_->step(command);
+}
+const State& Simulation::state() const {
+  return impl_->state_;
+}
+void Simulation::restore(const State& state) {
+  impl_->restore(state);
+}
+std::uint64_t Simulation::state_hash() const {
+  return impl_->state_.hash();
+}
+void Simulation::snapshot(Snapshot& out) const {
+  impl_->snapshot(out);
+}
+int Simulation::waypoints() const {
+  return static_cast<int>(impl_->waypoints_.size());
+}
+void Simulation::waypoint(int index, Snapshot& out) const {
+  impl_->waypoint(index, out);
+}
 
 }  // namespace endowire::sim

@@ -23,23 +23,24 @@ struct Event {
 
 /// What one step did: numbers only, no allocation but the events.
 struct StepReport {
-  solve::SolveReport solve;          ///< of the last (or the failed) sub-step
-  bool converged = false;            ///< every sub-step converged and was verified against the field
-  double detections = 0.0;           ///< collision detections, in units of the whole wire: a sample that is detected anew
-                                     ///< counts as its share of all samples
-  int verifications = 0;             ///< checks of the final state against the field
-  int splits = 0;                    ///< halvings of the command
-  int newton_iterations = 0;         ///< over all sub-steps
+  solve::SolveReport solve;  ///< of the last (or the failed) sub-step
+  bool converged = false;    ///< every sub-step converged and was verified against the field
+  double detections =
+      0.0;  ///< collision detections, in units of the whole wire: a sample that is detected anew
+            ///< counts as its share of all samples
+  int verifications = 0;      ///< checks of the final state against the field
+  int splits = 0;             ///< halvings of the command
+  int newton_iterations = 0;  ///< over all sub-steps
   int rods = 0;
   int contact_samples = 0;
   bool snapped = false;
   double inserted_length_mm = 0.0;
-  double hand_slip_mm = 0.0;         ///< commanded minus achieved advance in this step
-  double push_force_n = 0.0;         ///< force of the hand on the wire, > 0 pushes
-  double torque_n_mm = 0.0;          ///< torque of the hand on the wire
+  double hand_slip_mm = 0.0;  ///< commanded minus achieved advance in this step
+  double push_force_n = 0.0;  ///< force of the hand on the wire, > 0 pushes
+  double torque_n_mm = 0.0;   ///< torque of the hand on the wire
   double max_wall_deflection_mm = 0.0;
-  double max_force_5mm_n = 0.0;      ///< wall force summed over a sliding 5 mm window, largest
-  double tip_force_n = 0.0;          ///< wall force within the last 5 mm, tip cap included
+  double max_force_5mm_n = 0.0;  ///< wall force summed over a sliding 5 mm window, largest
+  double tip_force_n = 0.0;      ///< wall force within the last 5 mm, tip cap included
   std::vector<Event> events;
 };
 
@@ -49,7 +50,8 @@ struct StepReport {
 class Simulation {
  public:
   /// @throws base::InputError when the access lies outside the lumen, or the wire is wider than it there.
-  Simulation(std::shared_ptr<const vessel::Field> field, rod::Instrument instrument, Access access, SimulationSpec spec);
+  Simulation(std::shared_ptr<const vessel::Field> field, rod::Instrument instrument, Access access,
+             SimulationSpec spec);
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
@@ -65,6 +67,10 @@ class Simulation {
   [[nodiscard]] std::uint64_t state_hash() const;
   /// The shape and its forces for viewers and files.
   void snapshot(Snapshot& out) const;
+  /// Shapes that the last step passed through on its way, where it moved far: a snap has a path, and whoever draws or
+  /// judges it needs more than its ends. No equilibria, so without forces. Empty after an ordinary step.
+  [[nodiscard]] int waypoints() const;
+  void waypoint(int index, Snapshot& out) const;
 
  private:
   class Impl;

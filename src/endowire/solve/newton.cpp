@@ -7,23 +7,30 @@ namespace endowire::solve {
 
 namespace {
 
-constexpr double kFirstWeight = 1e-4;   // N/mm: the lateral stiffness of a soft 30 mm tip; below it snaps are not slowed
+constexpr double kFirstWeight =
+    1e-4;  // N/mm: the lateral stiffness of a soft 30 mm tip; below it snaps are not slowed
 constexpr double kLargestWeight = 1e8;  // stiffer than any rod along its axis: beyond it the matrix is broken
 constexpr double kArmijo = 1e-4;
 constexpr int kMaxHalvings = 30;
 constexpr int kMaxAnticipations = 6;
-constexpr double kCalm_mm = 0.2;  // lagged forces are renewed once steps are this short: before, they mean nothing
-constexpr double kPoorStep = 0.3;          // a line search that ends below this share says: the model was bad, trust less
-constexpr double kShorten = 2.0;            // a direction up to this many trust radii long is shortened, a longer one bent by the weight
+constexpr double kCalm_mm =
+    0.2;  // lagged forces are renewed once steps are this short: before, they mean nothing
+constexpr double kPoorStep =
+    0.3;  // a line search that ends below this share says: the model was bad, trust less
+constexpr double kShorten =
+    2.0;  // a direction up to this many trust radii long is shortened, a longer one bent by the weight
 constexpr double kSmallestTrust_mm = 0.05;
-constexpr double kStraight = 0.8;           // a quadratic falls by half of its slope per full step, a straight line by all
-constexpr double kWorthExtending = 1e-9;    // relative decrease of the merit below which a step is never lengthened
+constexpr double kStraight =
+    0.8;  // a quadratic falls by half of its slope per full step, a straight line by all
+constexpr double kWorthExtending =
+    1e-9;  // relative decrease of the merit below which a step is never lengthened
 
 }  // namespace
 
 void Newton::reserve(int unknowns) {
   hessian_.reserve(unknowns);
-  for (auto* v : {&gradient_, &model_gradient_, &direction_, &shift_}) v->reserve(static_cast<std::size_t>(unknowns));
+  for (auto* v : {&gradient_, &model_gradient_, &direction_, &shift_})
+    v->reserve(static_cast<std::size_t>(unknowns));
 }
 
 Newton::Norms Newton::norms(const std::vector<double>& v) {
@@ -57,14 +64,17 @@ void Newton::find_direction(Problem& problem, double lambda, SolveReport& report
   for (int round = 0;; ++round) {
     for (std::size_t i = 0; i < direction_.size(); ++i) direction_[i] = -model_gradient_[i];
     hessian_.solve(direction_);
-    if (round == kMaxAnticipations || !problem.anticipate(direction_, hessian_, model_gradient_)) return;
+    if (!anticipating_ || round == kMaxAnticipations ||
+        !problem.anticipate(direction_, hessian_, model_gradient_))
+      return;
     ++report.factorisations;
     factorise(lambda);
   }
 }
 
 /// Raises the proximal weight until the matrix is positive definite and the step no longer than the trust radius.
-bool Newton::restrict_direction(Problem& problem, double trust_mm, const NewtonSpec& spec, SolveReport& report) {
+bool Newton::restrict_direction(Problem& problem, double trust_mm, const NewtonSpec& spec,
+                                SolveReport& report) {
   double lambda = std::max(0.1 * last_weight_, spec.proximal_scale * kFirstWeight);
   for (; lambda < kLargestWeight; lambda *= 10.0) {
     ++report.factorisations;
@@ -88,7 +98,8 @@ double Newton::extend_step(Problem& problem, const NewtonSpec& spec, double meri
                            double descent, SolveReport& report) {
   const Norms step = norms(direction_);
   report.merit_mj = trial;
-  while (report.merit_mj <= merit + kStraight * alpha * descent && 2.0 * alpha * step.position <= spec.max_step_mm && 2.0 * alpha * step.turn <= spec.max_turn_rad &&
+  while (report.merit_mj <= merit + kStraight * alpha * descent &&
+         2.0 * alpha * step.position <= spec.max_step_mm && 2.0 * alpha * step.turn <= spec.max_turn_rad &&
          -alpha * descent > kWorthExtending * (std::abs(merit) + 1.0)) {
     const double further = problem.try_step(direction_, 2.0 * alpha);
     if (!(further <= merit + kStraight * 2.0 * alpha * descent)) {
@@ -101,7 +112,8 @@ double Newton::extend_step(Problem& problem, const NewtonSpec& spec, double meri
   return alpha;
 }
 
-double Newton::search_line(Problem& problem, const NewtonSpec& spec, double trust_mm, double merit, SolveReport& report) {
+double Newton::search_line(Problem& problem, const NewtonSpec& spec, double trust_mm, double merit,
+                           SolveReport& report) {
   const Norms step = norms(direction_);
   const double descent = slope();
   double alpha = 1.0;
@@ -162,8 +174,9 @@ SolveReport Newton::minimise(Problem& problem, const NewtonSpec& spec) {
       return report;
     }
     const bool full = definite && correction.position <= kShorten * trust_mm;
-    const bool small_residual = residual.position <= spec.force_tolerance * scale.force_n + scale.rounding_n + spec.force_floor_n &&
-                                residual.turn <= spec.force_tolerance * scale.moment_n_mm + spec.moment_floor_n_mm;
+    const bool small_residual =
+        residual.position <= spec.force_tolerance * scale.force_n + scale.rounding_n + spec.force_floor_n &&
+        residual.turn <= spec.force_tolerance * scale.moment_n_mm + spec.moment_floor_n_mm;
     if (full && small_residual && correction.position <= spec.correction_tolerance_mm &&
         correction.turn <= spec.correction_tolerance_rad && problem.lag_error() <= spec.lag_tolerance) {
       report.termination = Termination::converged;
@@ -174,15 +187,22 @@ SolveReport Newton::minimise(Problem& problem, const NewtonSpec& spec) {
       return report;
     }
     double alpha = slope() < 0.0 ? search_line(problem, spec, trust_mm, report.merit_mj, report) : 0.0;
-    if (alpha == 0.0 && definite) {
+    if (alpha == 0.0) {
       // The anticipated contacts misled: once more without.
+      anticipating_ = false;
       hessian_.set_zero();
       std::fill(gradient_.begin(), gradient_.end(), 0.0);
       problem.linearise(hessian_, gradient_);
-      factorise(0.0);
-      for (std::size_t i = 0; i < direction_.size(); ++i) direction_[i] = -gradient_[i];
-      hessian_.solve(direction_);
-      alpha = search_line(problem, spec, trust_mm, report.merit_mj, report);
+      model_gradient_ = gradient_;
+      bool found = definite;
+      if (definite) {
+        factorise(0.0);
+        find_direction(problem, 0.0, report);
+      } else {
+        found = restrict_direction(problem, trust_mm, spec, report);
+      }
+      anticipating_ = true;
+      if (found) alpha = search_line(problem, spec, trust_mm, report.merit_mj, report);
     }
     if (alpha == 0.0) {
       report.termination = Termination::stalled;

@@ -9,9 +9,9 @@ namespace endowire::solve {
 
 /// Sizes that residuals are compared with.
 struct ForceScales {
-  double force_n = 0.0;        ///< largest internal force
-  double moment_n_mm = 0.0;    ///< largest internal moment
-  double rounding_n = 0.0;     ///< forces below this are rounding: stiffness · |x| · machine epsilon
+  double force_n = 0.0;      ///< largest internal force
+  double moment_n_mm = 0.0;  ///< largest internal moment
+  double rounding_n = 0.0;   ///< forces below this are rounding: stiffness · |x| · machine epsilon
 };
 
 /// What Newton needs of a mechanical problem: a base state, its derivatives, and a curve of trial states.
@@ -49,10 +49,10 @@ struct NewtonSpec {
   double force_tolerance = 1e-6;                ///< of ForceScales
   double force_floor_n = 1e-9;                  ///< added to ForceScales::rounding_n
   double moment_floor_n_mm = 1e-9;
-  double lag_tolerance = 2e-3;                  ///< relative change of the lagged quantities at the end
-  double max_step_mm = 2.0;                     ///< longest motion of a joint in one iteration
+  double lag_tolerance = 2e-3;  ///< relative change of the lagged quantities at the end
+  double max_step_mm = 2.0;     ///< longest motion of a joint in one iteration
   double max_turn_rad = 0.5;
-  double proximal_scale = 1.0;                  ///< scales the first proximal weight
+  double proximal_scale = 1.0;  ///< scales the first proximal weight
   int max_iterations = 60;
 };
 
@@ -88,14 +88,16 @@ class Newton {
   bool restrict_direction(Problem& problem, double trust_mm, const NewtonSpec& spec, SolveReport& report);
   /// Change of the merit per unit step, to first order.
   [[nodiscard]] double slope() const;
-  double extend_step(Problem& problem, const NewtonSpec& spec, double merit, double trial, double alpha, double descent,
-                     SolveReport& report);
+  double extend_step(Problem& problem, const NewtonSpec& spec, double merit, double trial, double alpha,
+                     double descent, SolveReport& report);
   /// The step taken, 0 when none decreases the merit.
-  double search_line(Problem& problem, const NewtonSpec& spec, double trust_mm, double merit, SolveReport& report);
+  double search_line(Problem& problem, const NewtonSpec& spec, double trust_mm, double merit,
+                     SolveReport& report);
 
   math::BandMatrix hessian_;
   std::vector<double> gradient_, model_gradient_, direction_, shift_, empty_;
   double last_weight_ = 0.0;
+  bool anticipating_ = true;
 };
 
 }  // namespace endowire::solve

@@ -24,13 +24,13 @@ constexpr std::size_t stack_size = 128;  // depth of a median-split tree of 2Â³Â
 }  // namespace
 
 double nearest_on_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c,
-                           Vector3d& nearest, std::int8_t& feature) {
+                           Vector3d& nearest, std::uint8_t& feature) {
   const Vector3d ab = b - a;
   const Vector3d ac = c - a;
   const Vector3d ap = p - a;
   const double d1 = ab.dot(ap);
   const double d2 = ac.dot(ap);
-  const auto at_corner = [&](const Vector3d& v, std::int8_t f) {
+  const auto at_corner = [&](const Vector3d& v, std::uint8_t f) {
     nearest = v;
     feature = f;
     return (p - v).squaredNorm();
@@ -139,7 +139,7 @@ NearestPoint TriangleBvh::nearest(const Vector3d& p, double within_mm, double en
       const std::int32_t t = order_[static_cast<std::size_t>(i)];
       const auto index = static_cast<std::size_t>(t);
       Vector3d q;
-      std::int8_t feature = 0;
+      std::uint8_t feature = 0;
       const double d2 = nearest_on_triangle(p, mesh_.corner(index, 0), mesh_.corner(index, 1),
                                             mesh_.corner(index, 2), q, feature);
       if (d2 < best2 || (d2 == best2 && (best.triangle < 0 || t < best.triangle))) {
@@ -175,7 +175,7 @@ void TriangleBvh::collect(const Vector3d& centre, double radius_mm, std::vector<
       const std::int32_t t = order_[static_cast<std::size_t>(i)];
       const auto index = static_cast<std::size_t>(t);
       Vector3d q;
-      std::int8_t feature = 0;
+      std::uint8_t feature = 0;
       const double d2 = nearest_on_triangle(centre, mesh_.corner(index, 0), mesh_.corner(index, 1),
                                             mesh_.corner(index, 2), q, feature);
       if (d2 <= radius2) out.push_back({std::sqrt(d2), t});

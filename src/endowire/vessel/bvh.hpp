@@ -15,7 +15,7 @@ struct NearestPoint {
   double distance_mm = std::numeric_limits<double>::infinity();
   Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();
   std::int32_t triangle = -1;  ///< -1: none within the search radius
-  std::int8_t feature = 0;     ///< 0 face; 1, 2, 3 edge from corner 0, 1, 2; 4, 5, 6 corner 0, 1, 2
+  std::uint8_t feature = 0;    ///< 0 face; 1, 2, 3 edge from corner 0, 1, 2; 4, 5, 6 corner 0, 1, 2
 };
 
 /// Nearest point of the triangle a b c, exact for degenerate triangles too.
@@ -24,7 +24,7 @@ struct NearestPoint {
 /// @return squared distance [mm²]; `nearest` and `feature` as in NearestPoint
 [[nodiscard]] double nearest_on_triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
                                          const Eigen::Vector3d& b, const Eigen::Vector3d& c,
-                                         Eigen::Vector3d& nearest, std::int8_t& feature);
+                                         Eigen::Vector3d& nearest, std::uint8_t& feature);
 
 /// A bounding volume tree over the triangles of a mesh, which it keeps a reference to.
 class TriangleBvh {

@@ -291,9 +291,9 @@ class MeshFieldBuilder {
     for (std::size_t r = 0; r < parent.size(); ++r) {
       if (signs[r] != 3) continue;
       const auto n = static_cast<int>(deepest[r]);
-      const Vector3d p = origin_mm(cell) + spacing_mm * Vector3d(n / (MeshField::nodes * MeshField::nodes),
-                                                                 n / MeshField::nodes % MeshField::nodes,
-                                                                 n % MeshField::nodes);
+      const Eigen::Vector3i ijk(n / (MeshField::nodes * MeshField::nodes),
+                                n / MeshField::nodes % MeshField::nodes, n % MeshField::nodes);
+      const Vector3d p = origin_mm(cell) + spacing_mm * ijk.cast<double>();
       const double sign = winding_number(closed_.mesh, p) > 0.5 ? 1.0 : -1.0;
       for (std::size_t m = 0; m < parent.size(); ++m)
         if (root(m) == r) distance_[m] = sign * std::abs(distance_[m]);

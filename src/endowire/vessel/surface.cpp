@@ -100,7 +100,7 @@ ExactSurface::Sample ExactSurface::at(const Vector3d& point, const Candidates& c
     const Candidates::Entry& entry = candidates.entries[i];
     const std::int32_t triangle = entry.triangle;
     Vector3d q;
-    std::int8_t feature = 0;
+    std::uint8_t feature = 0;
     const double d2 =
         nearest_on_triangle(point, entry.corner_mm[0], entry.corner_mm[1], entry.corner_mm[2], q, feature);
     if (d2 > best2 || (d2 == best2 && triangle >= best.triangle)) return;
