@@ -11,6 +11,6 @@ namespace endowire::io {
 
 /// The instrument of such JSON.
 /// @throws nlohmann::json::exception when a field is missing or of another type.
-[[nodiscard]] rod::Instrument instrument_from_json(const nlohmann::json& json);
+[[nodiscard]] rod::Instrument instrument_from_json(const nlohmann::json& value);
 
 }  // namespace endowire::io

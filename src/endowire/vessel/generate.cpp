@@ -145,7 +145,7 @@ TriangleMesh extract(const Grid& grid) {
     const auto [at, fresh] = cut.try_emplace(key, static_cast<std::int32_t>(mesh.vertices_mm.size()));
     if (fresh) {
       const double t = std::clamp(low.value / (low.value - high.value), 0.02, 0.98);  // no slivers
-      mesh.vertices_mm.push_back(low.position + t * (high.position - low.position));
+      mesh.vertices_mm.emplace_back(low.position + t * (high.position - low.position));
     }
     return at->second;
   };
