@@ -5,7 +5,8 @@
 
 namespace endowire::contact {
 
-double local_height_mm(const LocalWall& wall, const Eigen::Vector3d& u) {
+double local_height_mm(const LocalWall& wall, const Eigen::Vector3d& displacement_mm) {
+  const Eigen::Vector3d& u = displacement_mm;
   const double k = wall.first_curvature_per_mm;
   const double a = wall.height_mm + wall.normal.dot(u);
   const double b = wall.first.dot(u);
@@ -36,7 +37,8 @@ LocalHeight ridge_derivatives(const LocalWall& wall, double a, double c, const E
 
 }  // namespace
 
-LocalHeight local_height_derivatives(const LocalWall& wall, const Eigen::Vector3d& u) {
+LocalHeight local_height_derivatives(const LocalWall& wall, const Eigen::Vector3d& displacement_mm) {
+  const Eigen::Vector3d& u = displacement_mm;
   const double k = wall.first_curvature_per_mm;
   const double a = wall.height_mm + wall.normal.dot(u);
   const double b = wall.first.dot(u);

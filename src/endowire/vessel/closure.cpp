@@ -58,12 +58,12 @@ void extrude(ClosedSurface& closed, const Opening& opening, const TriangleBvh& w
   for (Index v : opening.loop) {
     const Vector3d r = mesh.vertices_mm[static_cast<std::size_t>(v)] - tube.centre_mm;
     const double along = r.dot(tube.direction);
-    profile.push_back(r - along * tube.direction);
+    profile.emplace_back(r - along * tube.direction);
     tube.begin_mm = std::max(tube.begin_mm, along);
     tube.radius_mm = std::max(tube.radius_mm, profile.back().norm());
   }
   std::vector<Vector3d> probes = profile;
-  probes.push_back(Vector3d::Zero());
+  probes.emplace_back(Vector3d::Zero());
   const double length = std::max(probe_step_mm, free_length_mm(probes, tube, tube_mm, walls, closed.tubes));
   tube.end_mm = tube.begin_mm + length;
   const auto rings = static_cast<int>(std::ceil(length / ring_spacing_mm));
@@ -71,6 +71,7 @@ void extrude(ClosedSurface& closed, const Opening& opening, const TriangleBvh& w
   for (int k = 1; k <= rings; ++k) {
     const double along = tube.begin_mm + length * k / rings;
     std::vector<Index> next;
+    next.reserve(profile.size());
     for (const Vector3d& offset : profile)
       next.push_back(add_vertex(mesh, tube.centre_mm + offset + along * tube.direction));
     for (std::size_t i = 0; i < ring.size(); ++i) {
