@@ -1,0 +1,49 @@
+// The main job, and a curved tip that is turned against the wall.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <numbers>
+
+#include "support/temporary_folder.hpp"
+#include "vessel_run.hpp"
+
+namespace endowire {
+namespace {
+
+constexpr double kTurn_rad = std::numbers::pi / 18.0;  // 36 of them are a full turn
+
+/// The access of scenes/femoral_entry.toml.
+sim::Access femoral() {
+  return {{-30.0, 66.5, 6.5}, {-0.75, -0.65, 0.15}};
+}
+
+class RealVessel : public testing::Test {
+ protected:
+  /// Plays the commands `push` times, then `turn` times, and holds the run against what must hold.
+  void hold(const char* name, const sim::Access& access, int pushes, double advance_mm, int turns) {
+    const test::Vessel* vessel = test::shared_vessel(name);
+    if (vessel == nullptr) GTEST_SKIP() << "../shared/vessels/" << name << " is not here";
+    const test::TemporaryFolder folder;
+    int step = 0;
+    const auto hand = [&](const sim::Simulation&) {
+      return step++ < pushes ? sim::Command{advance_mm, 0.0} : sim::Command{0.0, kTurn_rad};
+    };
+    run_ = test::play(*vessel, access, pushes + turns, hand, folder.path());
+    std::printf("%s: %s\n", name, run_.text().c_str());
+    test::expect_all_that_must_hold(run_);
+    EXPECT_GT(run_.max_deflection_mm, 0.001) << "the wire touched nothing";
+  }
+
+  test::RunFigures run_;
+};
+
+TEST_F(RealVessel, FromTheFemoralAccessToTheArch) {
+  hold("femoral_to_neuro", femoral(), 450, 1.0, 0);
+}
+
+TEST_F(RealVessel, ACurvedTipTurnsTenTimesAgainstTheWall) {
+  hold("femoral_to_neuro", femoral(), 60, 1.0, 360);
+}
+
+}  // namespace
+}  // namespace endowire
