@@ -22,6 +22,8 @@ constexpr double kAtDetection_mm = 0.1;
 /// Ridges are looked for at this spacing between samples, where normals differ by more than 3°, and matter from this depth on.
 constexpr double kRidgeStep_mm = 0.5;
 constexpr double kSameNormal = 0.9986;
+/// The normals of a detection tell of the walls here as long as a sample has moved less.
+constexpr double kStillThere_mm = 0.1;
 constexpr double kRidgeDip_mm = 0.03;
 constexpr int kMaxSamplesPerRod = 16;
 constexpr double kMinShare_mm = 0.25;
@@ -211,7 +213,9 @@ int ContactSet::add_over_ridges(const rod::MaterialLine& line, const rod::ChainM
     if (gap <= 1.5 * kRidgeStep_mm) continue;
     // φ falls by no more than the distance: two samples that are clear of the wall by the gap between them hide nothing.
     if (a.walls == 0 && b.walls == 0 && a.clearance_mm + b.clearance_mm > gap) continue;
-    if (a.walls > 0 && b.walls > 0 && walls_agree(a, b)) continue;
+    const bool near_detection = (a.position_mm(shape) - a.detected_at_mm).norm() < kStillThere_mm &&
+                                (b.position_mm(shape) - b.detected_at_mm).norm() < kStillThere_mm;
+    if (a.walls > 0 && b.walls > 0 && near_detection && walls_agree(a, b)) continue;
     const int points = static_cast<int>(std::ceil(gap / kRidgeStep_mm));
     double deepest = kRidgeDip_mm;
     double where = -1.0;

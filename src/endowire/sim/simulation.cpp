@@ -32,6 +32,8 @@ constexpr double kRegion_mm = 0.8;
 /// Shapes kept of the path of one step, and how far the wire moves between two of them.
 constexpr std::size_t kMaxWaypoints = 64;
 constexpr double kWaypoint_mm = 0.5;
+/// Spacing of the points at which such a shape is checked against the field.
+constexpr double kClearStep_mm = 0.5;
 /// Corrections below which the walls are checked before the solution is polished.
 constexpr double kRough_mm = 0.03;
 constexpr double kRough_rad = 0.02;
@@ -88,6 +90,7 @@ class Simulation::Impl {
   bool advance_once(const Command& command);
   bool settle();
   void keep_waypoint();
+  [[nodiscard]] bool lies_clear() const;
   void enter(double inserted_mm, double turn_rad);
   void adapt_sheath(double inserted_mm);
   void insert_joint();
@@ -459,8 +462,7 @@ bool Simulation::Impl::settle() {
       rough = false;
       continue;
     }
-    if (wrong == 0 && measure_wall(problem_).max_deflection_mm < spec_.wall.max_deflection_mm)
-      keep_waypoint();
+    if (wrong == 0) keep_waypoint();
     // A state on its way that no wall contradicts goes on from where it is.
     if (wrong == 0) contact.mark_outside(problem_.shape, problem_.region_mm);
     report_.detections +=
@@ -468,6 +470,22 @@ bool Simulation::Impl::settle() {
   }
   report_.solve.termination = solve::Termination::left_domain;
   return false;
+}
+
+/// Whether the wire lies in the lumen all along, within what the wall may yield. Asked of shapes that are no equilibria.
+bool Simulation::Impl::lies_clear() const {
+  const rod::ChainShape& shape = problem_.shape;
+  for (int i = 0; i + 1 < shape.rods(); ++i) {
+    const double length = problem_.material.length_mm[at(i)];
+    const int points = std::max(1, static_cast<int>(std::ceil(length / kClearStep_mm)));
+    for (int k = 0; k < points; ++k) {
+      const double w = static_cast<double>(k) / points;
+      const Eigen::Vector3d x = (1.0 - w) * shape.joints_mm[at(i)] + w * shape.joints_mm[at(i + 1)];
+      const double radius = line_.radius_mm(problem_.material.arc_mm[at(i)] + w * length);
+      if (field_->at(x).distance_mm < radius - 0.5 * spec_.wall.max_deflection_mm) return false;
+    }
+  }
+  return true;
 }
 
 /// Keeps the present shape if the wire has moved since the last one kept.
@@ -483,7 +501,7 @@ void Simulation::Impl::keep_waypoint() {
   }
   double moved = 0.0;
   for (std::size_t j = 0; j < joints.size(); ++j) moved = std::max(moved, (joints[j] - last[j]).norm());
-  if (moved < kWaypoint_mm) return;
+  if (moved < kWaypoint_mm || !lies_clear()) return;
   waypoints_.push_back({waypoint_joints_.size(), joints.size(), problem_.feed.inserted_mm});
   waypoint_joints_.insert(waypoint_joints_.end(), joints.begin(), joints.end());
 }
