@@ -25,6 +25,8 @@ constexpr double kSameNormal = 0.9986;
 /// The normals of a detection tell of the walls here as long as a sample has moved less.
 constexpr double kStillThere_mm = 0.1;
 constexpr double kRidgeDip_mm = 0.03;
+/// Renewals of the lagged normal forces after a detection that are taken whole.
+constexpr int kFullRenewals = 8;
 constexpr int kMaxSamplesPerRod = 16;
 constexpr double kMinShare_mm = 0.25;
 
@@ -189,6 +191,7 @@ void ContactSet::detect_sample(const rod::ChainShape& shape, const vessel::Field
 
 void ContactSet::detect(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec) {
   models_since_detection_ = 0;
+  renewals_ = 0;
   for (Sample& s : samples_) detect_sample(shape, field, spec, 1.0, s);
 }
 
@@ -368,7 +371,9 @@ double ContactSet::lag_error() const {
 }
 
 void ContactSet::renew_lagged() {
-  for (Sample& s : samples_) s.lagged_normal_n = s.normal_n;
+  // Friction that unloads its own normal force makes this fixed-point iteration swing; half steps settle it.
+  const double share = ++renewals_ <= kFullRenewals ? 1.0 : 0.5;
+  for (Sample& s : samples_) s.lagged_normal_n += share * (s.normal_n - s.lagged_normal_n);
 }
 
 Verification ContactSet::verify(const rod::ChainShape& shape, const vessel::Field& field,

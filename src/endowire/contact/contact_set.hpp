@@ -131,6 +131,7 @@ class ContactSet {
 
   /// Σ|N − N_lagged| / ΣN over the samples that rub.
   [[nodiscard]] double lag_error() const;
+  /// Takes the present normal forces as the lagged ones; half of the way after the first few times since a detection.
   void renew_lagged();
 
   /// Compares the local walls with the field at a shape and marks the samples that are off by more than spec.gap_error_mm.
@@ -160,6 +161,7 @@ class ContactSet {
 
   std::vector<Sample> samples_;
   int models_since_detection_ = 0;
+  int renewals_ = 0;  ///< of lagged normal forces since the detection
 };
 
 }  // namespace endowire::contact
