@@ -48,6 +48,7 @@ TEST_P(RandomHand, ConvergesSplitsRarelyDetectsOnceAndCrossesNoWall) {
 INSTANTIATE_TEST_SUITE_P(
     Vessels, RandomHand,
     testing::Values(Entry{"femoral_to_neuro", 1, 620.0, 0, {{-30.0, 66.5, 6.5}, {-0.75, -0.65, 0.15}}},
+                    Entry{"femoral_to_neuro_fine", 1, 620.0, 3, {}},
                     Entry{"carotid_bifurcation", 1, 130.0, 1, {}},
                     Entry{"branching_phantom", 1, 380.0, 8, {}}),
     [](const testing::TestParamInfo<Entry>& entry) { return std::string(entry.param.vessel); });

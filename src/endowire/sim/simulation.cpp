@@ -89,7 +89,7 @@ class Simulation::Impl {
   bool advance(const Command& command, int split);
   bool advance_once(const Command& command);
   bool settle();
-  void keep_waypoint();
+  void keep_waypoint(double least_motion_mm);
   [[nodiscard]] bool lies_clear() const;
   void enter(double inserted_mm, double turn_rad);
   void adapt_sheath(double inserted_mm);
@@ -362,8 +362,10 @@ const StepReport& Simulation::Impl::step(const Command& command) {
   }
   const double before_mm = state_.inserted_mm;
   const Command piece{command.advance_mm / pieces, command.torque_rad / pieces};
-  for (int k = 0; k < static_cast<int>(pieces) && report_.converged; ++k)
+  for (int k = 0; k < static_cast<int>(pieces) && report_.converged; ++k) {
+    if (k > 0) keep_waypoint(0.0);
     report_.converged = advance(piece, 0);
+  }
   ++state_.steps;
   report_.hand_slip_mm = command.advance_mm - (state_.inserted_mm - before_mm);
   if (!report_.converged)
@@ -462,7 +464,7 @@ bool Simulation::Impl::settle() {
       rough = false;
       continue;
     }
-    if (wrong == 0) keep_waypoint();
+    if (wrong == 0) keep_waypoint(kWaypoint_mm);
     // A state on its way that no wall contradicts goes on from where it is.
     if (wrong == 0) contact.mark_outside(problem_.shape, problem_.region_mm);
     report_.detections +=
@@ -488,10 +490,11 @@ bool Simulation::Impl::lies_clear() const {
   return true;
 }
 
-/// Keeps the present shape if the wire has moved since the last one kept.
-void Simulation::Impl::keep_waypoint() {
+/// Keeps the present shape if the wire has moved since the last one kept; an equilibrium between two pieces of a
+/// command (0) always.
+void Simulation::Impl::keep_waypoint(double least_motion_mm) {
   const std::vector<Eigen::Vector3d>& joints = problem_.shape.joints_mm;
-  if (waypoints_.size() == waypoints_.capacity() ||
+  if (joints.empty() || waypoints_.size() == waypoints_.capacity() ||
       waypoint_joints_.size() + joints.size() > waypoint_joints_.capacity()) {
     return;
   }
@@ -501,7 +504,7 @@ void Simulation::Impl::keep_waypoint() {
   }
   double moved = 0.0;
   for (std::size_t j = 0; j < joints.size(); ++j) moved = std::max(moved, (joints[j] - last[j]).norm());
-  if (moved < kWaypoint_mm || !lies_clear()) return;
+  if (moved < least_motion_mm || (least_motion_mm > 0.0 && !lies_clear())) return;
   waypoints_.push_back({waypoint_joints_.size(), joints.size(), problem_.feed.inserted_mm});
   waypoint_joints_.insert(waypoint_joints_.end(), joints.begin(), joints.end());
 }

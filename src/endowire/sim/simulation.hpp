@@ -68,7 +68,8 @@ class Simulation {
   /// The shape and its forces for viewers and files.
   void snapshot(Snapshot& out) const;
   /// Shapes that the last step passed through on its way, where it moved far: a snap has a path, and whoever draws or
-  /// judges it needs more than its ends. No equilibria, so without forces. Empty after an ordinary step.
+  /// judges it needs more than its ends; and the ends of the pieces that a long command is taken in. Without forces. Empty
+  /// after an ordinary step.
   [[nodiscard]] int waypoints() const;
   void waypoint(int index, Snapshot& out) const;
 
