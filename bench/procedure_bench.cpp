@@ -139,11 +139,12 @@ void print_table(const io::SceneFile& scene, const io::PreparedField& prepared, 
   row("state hash", "{:016x}", run.state_hash);
 }
 
-void bench(const fs::path& path) {
+/// @param cache_folder  empty: the field is prepared now, and that is timed
+void bench(const fs::path& path, const fs::path& cache_folder) {
   const io::SceneFile scene = io::read_scene_file(path, {fs::path(ENDOWIRE_SOURCE_DIR) / "instruments"});
   const io::VesselMesh vessel = vessel_of(scene);
   const Clock::time_point start = Clock::now();
-  const io::PreparedField prepared = io::prepare_field(vessel, {});  // no cache: preparation is timed
+  const io::PreparedField prepared = io::prepare_field(vessel, cache_folder);
   const double preparation_s = seconds_since(start);
   sim::Simulation simulation(prepared.field, scene.instrument, access_of(scene, vessel), scene.simulation);
   const std::vector<io::TimedCommand> commands = io::commands_of(scene);
@@ -153,12 +154,18 @@ void bench(const fs::path& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc > 2) {
-    fmt::print(stderr, "usage: bench_procedure [SCENE.toml]\n");
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  fs::path cache_folder;
+  if (arguments.size() >= 2 && arguments[0] == "--cache") {
+    cache_folder = arguments[1];
+    arguments.erase(arguments.begin(), arguments.begin() + 2);
+  }
+  if (arguments.size() > 1) {
+    fmt::print(stderr, "usage: bench_procedure [--cache FOLDER] [SCENE.toml]\n");
     return 2;
   }
   try {
-    bench(argc == 2 ? fs::path(argv[1]) : default_scene());
+    bench(arguments.empty() ? default_scene() : fs::path(arguments[0]), cache_folder);
   } catch (const base::InputError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 2;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "endowire/contact/crest.hpp"
 #include "endowire/contact/detect.hpp"
 #include "endowire/math/transport.hpp"
 
@@ -25,8 +26,11 @@ constexpr double kSameNormal = 0.9986;
 /// The normals of a detection tell of the walls here as long as a sample has moved less.
 constexpr double kStillThere_mm = 0.1;
 constexpr double kRidgeDip_mm = 0.03;
-/// Renewals of the lagged normal forces after a detection that are taken whole.
-constexpr int kFullRenewals = 8;
+/// Renewals of the lagged normal forces after a detection that are taken whole, while the wire still moves; and the relaxation
+/// of those after them.
+constexpr int kFullRenewals = 3;
+constexpr double kLeastRelaxation = 0.2;
+constexpr double kMostRelaxation = 3.0;
 constexpr int kMaxSamplesPerRod = 16;
 constexpr double kMinShare_mm = 0.25;
 
@@ -36,24 +40,6 @@ int intervals(double rod_length_mm, double lumen_radius_mm, const ContactSpec& s
   int count = 1;
   while (count < kMaxSamplesPerRod && rod_length_mm > spacing * count * (1.0 + 1e-9)) count *= 2;
   return count;
-}
-
-/// Linear interpolation in the memory, for increasing arcs; `k` is where the last look-up ended.
-void recall(const FrictionMemory& memory, std::size_t& k, Sample& sample) {
-  const std::size_t n = memory.arc_mm.size();
-  sample.anchor_mm.setZero();
-  sample.lagged_normal_n = 0.0;
-  if (n == 0 || sample.arc_mm > memory.arc_mm[n - 1]) return;
-  while (k + 1 < n && memory.arc_mm[k + 1] <= sample.arc_mm) ++k;
-  if (sample.arc_mm <= memory.arc_mm[k] || k + 1 == n) {
-    sample.anchor_mm = memory.anchor_mm[k];
-    sample.lagged_normal_n = memory.normal_n_per_mm[k] * sample.share_mm;
-    return;
-  }
-  const double w = (sample.arc_mm - memory.arc_mm[k]) / (memory.arc_mm[k + 1] - memory.arc_mm[k]);
-  sample.anchor_mm = (1.0 - w) * memory.anchor_mm[k] + w * memory.anchor_mm[k + 1];
-  sample.lagged_normal_n =
-      ((1.0 - w) * memory.normal_n_per_mm[k] + w * memory.normal_n_per_mm[k + 1]) * sample.share_mm;
 }
 
 Eigen::Vector3d tangent_at(const rod::ChainShape& shape, const Sample& sample) {
@@ -68,26 +54,39 @@ Eigen::Vector2d slip_of(const Sample& s, const rod::ChainShape& shape) {
   return s.anchor_mm + Eigen::Vector2d(s.axial.dot(moved), s.around.dot(moved) + s.radius_mm * turned);
 }
 
-/// Lays derivatives by the position of a sample and the spin of its rod onto the unknowns of its two joints.
-/// @param hand  1, or 0 to leave the joint on the hand's side out
-void scatter(const Sample& s, const Eigen::Vector4d& g, const Eigen::Matrix4d& h, double hand,
-             math::BandMatrix& hessian, std::vector<double>& gradient) {
+/// Adds a Hessian by the position of a sample to the blocks of its two joints.
+void scatter(const Sample& s, const Eigen::Matrix3d& h, math::BandMatrix& hessian) {
   const int first = 4 * s.rod;
   const double a = 1.0 - s.fraction;
-  const double b = s.fraction * hand;
+  const double b = s.fraction;
   for (int r = 0; r < 3; ++r) {
-    gradient[at(first + r)] += a * g[r];
-    gradient[at(first + 4 + r)] += b * g[r];
     for (int c = 0; c <= r; ++c) {
       hessian.lower(first + r, first + c) += a * a * h(r, c);
       hessian.lower(first + 4 + r, first + 4 + c) += b * b * h(r, c);
     }
     for (int c = 0; c < 3; ++c) hessian.lower(first + 4 + r, first + c) += a * b * h(r, c);
-    hessian.lower(first + 3, first + r) += a * h(3, r);
-    hessian.lower(first + 4 + r, first + 3) += b * h(r, 3);
   }
-  gradient[at(first + 3)] += g[3];
-  hessian.lower(first + 3, first + 3) += h(3, 3);
+}
+
+/// The straight line that stands for a wall's law around a depth.
+struct WallLine {
+  double stiffness_n_per_mm, zero_mm;
+  double trusted_n;  ///< the force that is worth a curvature in the Hessian
+};
+
+/// The tangent there; but where a prediction, just detected, lies far deeper than the force asks for that the wire had before, the
+/// line that cuts the law at both depths: the true force now, and the remembered one at the depth of that. A tangent to a law
+/// that stiffens so much would take many iterations to climb out.
+WallLine line_for(const Sample& s, double depth_mm, const WallResponse& response) {
+  constexpr double kFar = 0.2;  // of the cap
+  const double expected_mm = wall_depth_mm(s.stiffness_n_per_mm, s.cap_mm, s.lagged_normal_n);
+  if (!s.fresh || depth_mm < expected_mm + kFar * s.cap_mm) {
+    return {response.stiffness_n_per_mm, depth_mm - response.force_n / response.stiffness_n_per_mm,
+            response.force_n};
+  }
+  const double expected_n = wall_response(s.stiffness_n_per_mm, s.cap_mm, expected_mm).force_n;
+  const double slope = (response.force_n - expected_n) / (depth_mm - expected_mm);
+  return {slope, depth_mm - response.force_n / slope, expected_n};
 }
 
 bool reachable(const vessel::Field& field, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
@@ -98,6 +97,7 @@ bool reachable(const vessel::Field& field, const Eigen::Vector3d& from, const Ei
 bool walls_agree(const Sample& a, const Sample& b) {
   const Eigen::Vector3d n = a.wall[0].normal.normalized();
   for (const Sample* s : {&a, &b}) {
+    if (s->at_crest) return false;
     for (int k = 0; k < s->walls; ++k) {
       const LocalWall& wall = s->wall[at(k)];
       if (wall.ridge || n.dot(wall.normal.normalized()) < kSameNormal) return false;
@@ -107,7 +107,7 @@ bool walls_agree(const Sample& a, const Sample& b) {
 }
 
 void set_stiffness(Sample& s) {
-  s.stiffness_n_per_mm = s.foundation_n_per_mm2 * s.share_mm + s.tip_cap_n_per_mm;
+  s.stiffness_n_per_mm = s.foundation_n_per_mm2 * s.share_mm() + s.tip_cap_n_per_mm;
   s.stick_stiffness_n_per_mm = s.stick_ratio * s.stiffness_n_per_mm;
 }
 
@@ -117,33 +117,19 @@ FrictionLaw friction_of(const Sample& s) {
 
 }  // namespace
 
-void FrictionMemory::clear() {
-  arc_mm.clear();
-  anchor_mm.clear();
-  normal_n_per_mm.clear();
-}
-
-void FrictionMemory::reserve(std::size_t samples) {
-  arc_mm.reserve(samples);
-  anchor_mm.reserve(samples);
-  normal_n_per_mm.reserve(samples);
-}
-
 void ContactSet::reserve(int rods, std::size_t samples) {
   samples_.reserve(samples);
   memory_.reserve(samples);
   start_shape_.reserve(rods);
 }
 
-void ContactSet::place(const rod::MaterialLine& line, const rod::ChainMaterial& material,
-                       const rod::ChainShape& shape, int rods_in_lumen, const vessel::Field& field,
+void ContactSet::place(const Wire& wire, int rods_in_lumen, const vessel::Field& field,
                        const ContactSpec& spec, const FrictionMemory& memory) {
+  const rod::ChainShape& shape = wire.shape;
+  const rod::ChainMaterial& material = wire.material;
   samples_.clear();
-  memory_.arc_mm.assign(memory.arc_mm.begin(), memory.arc_mm.end());
-  memory_.anchor_mm.assign(memory.anchor_mm.begin(), memory.anchor_mm.end());
-  memory_.normal_n_per_mm.assign(memory.normal_n_per_mm.begin(), memory.normal_n_per_mm.end());
+  memory_.assign(memory);
   start_shape_ = shape;
-  double before_mm = 0.0;  // half an interval of the rod before
   for (int i = 0; i < rods_in_lumen; ++i) {
     const double length = material.length_mm[at(i)];
     const Eigen::Vector3d middle = 0.5 * (shape.joints_mm[at(i)] + shape.joints_mm[at(i + 1)]);
@@ -152,29 +138,38 @@ void ContactSet::place(const rod::MaterialLine& line, const rod::ChainMaterial& 
       Sample s;
       s.rod = i;
       s.fraction = static_cast<double>(k) / count;
-      s.arc_mm = material.arc_mm[at(i)] + s.fraction * length;
-      s.share_mm = k > 0 ? length / count : before_mm + 0.5 * length / count;
-      s.radius_mm = line.radius_mm(s.arc_mm);
-      s.friction = line.friction(s.arc_mm);
+      s.arc_mm = s.nominal_mm = material.arc_mm[at(i)] + s.fraction * length;
+      s.to_mm = s.nominal_mm + 0.5 * length / count;
+      s.from_mm = samples_.empty() ? s.nominal_mm : samples_.back().to_mm;
+      s.radius_mm = wire.line.radius_mm(s.arc_mm);
+      s.friction = wire.line.friction(s.arc_mm);
       s.start_mm = s.position_mm(shape);
       s.start_spin_rad = shape.spin_rad[at(i)];
       samples_.push_back(s);
     }
-    before_mm = 0.5 * length / count;
   }
-  std::size_t k = 0;
+  std::size_t hint = 0;
   for (Sample& s : samples_) {
-    recall(memory, k, s);
+    memory_.recall(hint, s);
     s.normal_n = s.lagged_normal_n;
     s.detected_at_mm = s.start_mm;
   }
 }
 
-void ContactSet::detect_sample(const rod::ChainShape& shape, const vessel::Field& field,
-                               const ContactSpec& spec, double share, Sample& s) const {
-  const Eigen::Vector3d target = s.detected_at_mm + share * (s.position_mm(shape) - s.detected_at_mm);
-  s.detected_at_mm = slid_point_mm(field, s.detected_at_mm, target, s.radius_mm);
+namespace {
+
+/// The walls around a sample. One that was led back to where it came from, as between the two sides of a ridge, goes half of the
+/// way only: its places of detection are bisected.
+void detect_sample(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec,
+                   Sample& s) {
+  Eigen::Vector3d way = s.position_mm(shape) - s.detected_at_mm;
+  if (way.dot(s.last_way_mm) < 0.0) way *= 0.5;
+  s.last_way_mm = way;
+  s.detected_at_mm = slid_point_mm(field, s.detected_at_mm, s.detected_at_mm + way, s.radius_mm);
   s.wrong = false;
+  s.fresh = true;
+  s.closed = {};
+  s.closed[0] = s.lagged_normal_n > 0.0;  // what touched before will touch again
   const Eigen::Vector3d tangent = tangent_at(shape, s);
   find_local_walls(field, spec, tangent, s);
   if (s.walls == 0) return;
@@ -189,27 +184,49 @@ void ContactSet::detect_sample(const rod::ChainShape& shape, const vessel::Field
   s.around = n.cross(s.axial);
 }
 
-void ContactSet::detect(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec) {
-  models_since_detection_ = 0;
-  renewals_ = 0;
-  for (Sample& s : samples_) detect_sample(shape, field, spec, 1.0, s);
+}  // namespace
+
+/// What a sample remembers belongs to the material: it is recalled where the sample goes to.
+void ContactSet::move_to_crest(const Wire& wire, const vessel::Field& field, const ContactSpec& spec,
+                               std::size_t& hint, Sample& s) const {
+  const double arc_before = s.arc_mm;
+  const Eigen::Vector3d before = s.position_mm(wire.shape);
+  seek_crest(wire, field, spec, s);
+  if (s.arc_mm == arc_before) return;
+  s.detected_at_mm += s.position_mm(wire.shape) - before;
+  s.start_mm = s.position_mm(start_shape_);
+  s.start_spin_rad = start_shape_.spin_rad[at(s.rod)];
+  memory_.recall(hint, s);
 }
 
-int ContactSet::redetect(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec,
-                         double share) {
+void ContactSet::detect(const Wire& wire, const vessel::Field& field, const ContactSpec& spec) {
+  renewals_ = 0;
+  std::size_t hint = 0;
+  for (Sample& s : samples_) {
+    move_to_crest(wire, field, spec, hint, s);
+    s.detected_at_mm = s.start_mm;
+    s.last_way_mm.setZero();
+    detect_sample(wire.shape, field, spec, s);
+  }
+}
+
+int ContactSet::redetect(const Wire& wire, const vessel::Field& field, const ContactSpec& spec) {
   int detected = 0;
+  std::size_t hint = 0;
   for (Sample& s : samples_) {
     if (!s.wrong) continue;
-    detect_sample(shape, field, spec, share, s);
+    move_to_crest(wire, field, spec, hint, s);
+    detect_sample(wire.shape, field, spec, s);
     ++detected;
   }
   return detected;
 }
 
-int ContactSet::add_over_ridges(const rod::MaterialLine& line, const rod::ChainMaterial& material,
-                                const rod::ChainShape& shape, const vessel::Field& field) {
+int ContactSet::add_over_ridges(const Wire& wire, const vessel::Field& field, bool rough_field) {
+  const rod::ChainShape& shape = wire.shape;
+  const double least_dip_mm = rough_field ? std::max(kRidgeDip_mm, field.error_mm()) : kRidgeDip_mm;
   int added = 0;
-  for (std::size_t i = 0; i + 1 < samples_.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < samples_.size() && samples_.size() < samples_.capacity(); ++i) {
     const Sample& a = samples_[i];
     const Sample& b = samples_[i + 1];
     const double gap = b.arc_mm - a.arc_mm;
@@ -220,48 +237,44 @@ int ContactSet::add_over_ridges(const rod::MaterialLine& line, const rod::ChainM
                                 (b.position_mm(shape) - b.detected_at_mm).norm() < kStillThere_mm;
     if (a.walls > 0 && b.walls > 0 && near_detection && walls_agree(a, b)) continue;
     const int points = static_cast<int>(std::ceil(gap / kRidgeStep_mm));
-    double deepest = kRidgeDip_mm;
+    double deepest = least_dip_mm;
     double where = -1.0;
+    Sample probe = a;
     for (int k = 1; k < points; ++k) {
-      const double arc = a.arc_mm + gap * k / points;
-      const double length = material.length_mm[at(a.rod)];
-      const double w = (arc - material.arc_mm[at(a.rod)]) / length;
-      const Eigen::Vector3d x = (1.0 - w) * shape.joints_mm[at(a.rod)] + w * shape.joints_mm[at(a.rod + 1)];
-      const double dip = line.radius_mm(arc) - field.at(x).distance_mm;
+      put_at(wire.line, wire.material, a.arc_mm + gap * k / points, probe);
+      const double dip = probe.radius_mm - field.at(probe.position_mm(shape)).distance_mm;
       if (dip <= deepest) continue;
       deepest = dip;
-      where = arc;
+      where = probe.arc_mm;
     }
     if (where < 0.0) continue;
-    add_between(i, where, line, material, shape);
+    add_between(wire, i, where);
     ++added;
     ++i;
   }
   return added;
 }
 
-void ContactSet::add_between(std::size_t before, double arc_mm, const rod::MaterialLine& line,
-                             const rod::ChainMaterial& material, const rod::ChainShape& shape) {
+void ContactSet::add_between(const Wire& wire, std::size_t before, double arc_mm) {
   Sample& a = samples_[before];
   Sample& b = samples_[before + 1];
   Sample s;
   s.rod = a.rod;
-  s.fraction = (arc_mm - material.arc_mm[at(a.rod)]) / material.length_mm[at(a.rod)];
-  s.arc_mm = arc_mm;
-  s.share_mm = 0.5 * (b.arc_mm - a.arc_mm);
-  a.share_mm -= 0.5 * (b.arc_mm - arc_mm);
-  b.share_mm -= 0.5 * (arc_mm - a.arc_mm);
+  put_at(wire.line, wire.material, arc_mm, s);
+  s.nominal_mm = arc_mm;
+  a.to_mm = s.from_mm = 0.5 * (a.arc_mm + arc_mm);
+  b.from_mm = s.to_mm = 0.5 * (arc_mm + b.arc_mm);
+  a.nominal_mm = std::min(a.nominal_mm, a.to_mm);
+  b.nominal_mm = std::max(b.nominal_mm, b.from_mm);
   set_stiffness(a);
   set_stiffness(b);
-  s.radius_mm = line.radius_mm(arc_mm);
-  s.friction = line.friction(arc_mm);
   s.start_mm = s.position_mm(start_shape_);
   s.start_spin_rad = start_shape_.spin_rad[at(s.rod)];
-  std::size_t k = 0;
-  recall(memory_, k, s);
+  std::size_t hint = 0;
+  memory_.recall(hint, s);
   // It has followed its neighbours on their way: detection goes on from between them.
-  s.detected_at_mm = s.position_mm(shape) + 0.5 * (a.detected_at_mm - a.position_mm(shape) +
-                                                   b.detected_at_mm - b.position_mm(shape));
+  s.detected_at_mm = s.position_mm(wire.shape) + 0.5 * (a.detected_at_mm - a.position_mm(wire.shape) +
+                                                        b.detected_at_mm - b.position_mm(wire.shape));
   s.wrong = true;
   samples_.insert(samples_.begin() + static_cast<std::ptrdiff_t>(before) + 1, s);
 }
@@ -285,78 +298,77 @@ double ContactSet::energy_mj(const rod::ChainShape& shape) {
   return energy;
 }
 
-double ContactSet::add_derivatives(const rod::ChainShape& shape, math::BandMatrix& hessian,
-                                   std::vector<double>& gradient) {
-  ++models_since_detection_;
+double ContactSet::linearise(const rod::ChainShape& shape, const GuidedJoint& guided,
+                             math::BandMatrix& hessian, std::vector<double>& gradient, ContactModel& model) {
+  model.clear();
   double energy = 0.0;
   for (Sample& s : samples_) {
-    s.in_model = {};
     s.normal_n = 0.0;
     s.deflection_mm = 0.0;
     if (s.walls == 0) continue;
-    // Gradient and Hessian in (position of the sample, spin of its rod).
+    LinearContact& c = model.add();
+    c.rod = s.rod;
+    c.fraction = s.fraction;
+    c.radius_mm = s.radius_mm;
+    c.walls = s.walls;
     Eigen::Vector4d g = Eigen::Vector4d::Zero();
-    Eigen::Matrix4d h = Eigen::Matrix4d::Zero();
     const Eigen::Vector3d u = s.position_mm(shape) - s.detected_at_mm;
     for (int k = 0; k < s.walls; ++k) {
       const LocalHeight height = local_height_derivatives(s.wall[at(k)], u);
-      const double depth = s.radius_mm - height.value_mm;
-      const WallResponse w = wall_response(s.stiffness_n_per_mm, s.cap_mm, depth);
-      if (w.force_n <= 0.0) continue;
+      LinearContact::Wall& wall = c.wall[at(k)];
+      wall.normal = height.gradient;
+      wall.depth_mm = s.radius_mm - height.value_mm;
+      wall.stiffness_n_per_mm = s.stiffness_n_per_mm;
+      wall.closed = s.closed[at(k)] || wall.depth_mm > 0.0;
+      if (!(wall.depth_mm > 0.0)) continue;
+      const WallResponse w = wall_response(s.stiffness_n_per_mm, s.cap_mm, wall.depth_mm);
       energy += w.energy_mj;
       s.normal_n += w.force_n;
-      s.deflection_mm = std::max(s.deflection_mm, depth);
+      s.deflection_mm = std::max(s.deflection_mm, wall.depth_mm);
       g.head<3>() -= w.force_n * height.gradient;
-      h.topLeftCorner<3, 3>() += w.stiffness_n_per_mm * height.gradient * height.gradient.transpose() -
-                                 w.bounded_force_n * height.hessian;
+      const WallLine line = line_for(s, wall.depth_mm, w);
+      wall.stiffness_n_per_mm = line.stiffness_n_per_mm;
+      wall.zero_mm = line.zero_mm;
+      scatter(s, -line.trusted_n * height.hessian, hessian);
     }
+    s.fresh = false;
     if (s.friction > 0.0 && s.lagged_normal_n > 0.0) {
-      const FrictionResponse f = friction_response(friction_of(s), slip_of(s, shape));
-      Eigen::Matrix<double, 2, 4> slip = Eigen::Matrix<double, 2, 4>::Zero();
-      slip.block<1, 3>(0, 0) = s.axial.transpose();
-      slip.block<1, 3>(1, 0) = s.around.transpose();
-      slip(1, 3) = s.radius_mm;
+      c.axial = s.axial;
+      c.around = s.around;
+      c.slip_mm = slip_of(s, shape);
+      c.friction = friction_of(s);
+      const FrictionResponse f = friction_response(c.friction, c.slip_mm);
       energy += f.energy_mj;
-      g += slip.transpose() * f.force_n;
-      h += slip.transpose() * f.stiffness_n_per_mm * slip;
+      g.head<3>() += f.force_n[0] * c.axial + f.force_n[1] * c.around;
+      g[3] += c.radius_mm * f.force_n[1];
     }
-    scatter(s, g, h, 1.0, hessian, gradient);
+    scatter_gradient(s.rod, s.fraction, g, guided, gradient);
   }
   return energy;
 }
 
-bool ContactSet::anticipate(const rod::ChainShape& shape, const std::vector<double>& step, int hand_joint,
-                            math::BandMatrix& hessian, std::vector<double>& gradient) {
-  constexpr double kDeep = 0.5;  // of the cap
-  bool changed = false;
+void ContactSet::recall_closed(const ContactModel& model) {
+  auto from = model.contacts().begin();
   for (Sample& s : samples_) {
-    const auto moved = [&](int joint) { return Eigen::Map<const Eigen::Vector3d>(step.data() + 4 * joint); };
-    const Eigen::Vector3d u = s.position_mm(shape) - s.detected_at_mm;
+    if (s.walls == 0) continue;
+    for (int k = 0; k < s.walls; ++k) s.closed[at(k)] = from->wall[at(k)].closed;
+    ++from;
+  }
+}
+
+void ContactSet::correct(const rod::ChainShape& there, const std::vector<double>& motion,
+                         const GuidedJoint& guided, ContactModel& model) const {
+  std::size_t i = 0;
+  for (const Sample& s : samples_) {
+    if (s.walls == 0) continue;
+    LinearContact& c = model.contact(i++);
+    const Eigen::Vector3d moved = motion_of(c, motion, guided);
+    const Eigen::Vector3d u = s.position_mm(there) - s.detected_at_mm;
     for (int k = 0; k < s.walls; ++k) {
-      const LocalHeight height = local_height_derivatives(s.wall[at(k)], u);
-      const double depth = s.radius_mm - height.value_mm;
-      const Eigen::Vector3d& n = height.gradient;
-      const Eigen::Vector3d motion = (1.0 - s.fraction) * moved(s.rod) + s.fraction * moved(s.rod + 1);
-      const bool closes = depth < kWallOnset_mm && depth - n.dot(motion) > kWallOnset_mm;
-      const bool buried = models_since_detection_ == 1 && depth > kDeep * s.cap_mm;
-      // A wall that others now keep the wire off leaves the model again: it would pull.
-      const bool in = s.in_model[at(k)] == Sample::InModel::anticipated;
-      if ((closes || buried) == in || s.in_model[at(k)] == Sample::InModel::dropped) continue;
-      const double sign = in ? -1.0 : 1.0;
-      // The wall as a spring that also pulls, in place of what the model has of it.
-      const WallResponse present = wall_response(s.stiffness_n_per_mm, s.cap_mm, depth);
-      const double force = s.stiffness_n_per_mm * (depth - 0.5 * kWallOnset_mm) - present.force_n;
-      const double stiffness = s.stiffness_n_per_mm - present.stiffness_n_per_mm;
-      Eigen::Vector4d g = Eigen::Vector4d::Zero();
-      Eigen::Matrix4d h = Eigen::Matrix4d::Zero();
-      g.head<3>() = -sign * force * n;
-      h.topLeftCorner<3, 3>() = sign * stiffness * n * n.transpose();
-      scatter(s, g, h, s.rod + 1 == hand_joint ? 0.0 : 1.0, hessian, gradient);
-      s.in_model[at(k)] = in ? Sample::InModel::dropped : Sample::InModel::anticipated;
-      changed = true;
+      LinearContact::Wall& wall = c.wall[at(k)];
+      wall.depth_mm = s.radius_mm - local_height_mm(s.wall[at(k)], u) + wall.normal.dot(moved);
     }
   }
-  return changed;
 }
 
 double ContactSet::lag_error() const {
@@ -371,13 +383,28 @@ double ContactSet::lag_error() const {
 }
 
 void ContactSet::renew_lagged() {
-  // Friction that unloads its own normal force makes this fixed-point iteration swing; half steps settle it.
-  const double share = ++renewals_ <= kFullRenewals ? 1.0 : 0.5;
-  for (Sample& s : samples_) s.lagged_normal_n += share * (s.normal_n - s.lagged_normal_n);
+  // Friction that loads or unloads its own normal force makes this fixed-point iteration crawl or swing: Aitken's relaxation.
+  double along = 0.0;
+  double change = 0.0;
+  for (const Sample& s : samples_) {
+    const double r = s.normal_n - s.lagged_normal_n;
+    along += s.last_lag_n * (r - s.last_lag_n);
+    change += (r - s.last_lag_n) * (r - s.last_lag_n);
+  }
+  if (++renewals_ > kFullRenewals && change > 0.0) {
+    relaxation_ = std::clamp(-relaxation_ * along / change, kLeastRelaxation, kMostRelaxation);
+  } else {
+    relaxation_ = 1.0;
+  }
+  for (Sample& s : samples_) {
+    s.last_lag_n = s.normal_n - s.lagged_normal_n;
+    s.lagged_normal_n = std::max(0.0, s.lagged_normal_n + relaxation_ * s.last_lag_n);
+  }
 }
 
-Verification ContactSet::verify(const rod::ChainShape& shape, const vessel::Field& field,
-                                const ContactSpec& spec, bool rough_field) {
+Verification ContactSet::verify(const Wire& wire, const vessel::Field& field, const ContactSpec& spec,
+                                bool rough_field) {
+  const rod::ChainShape& shape = wire.shape;
   Verification result;
   for (Sample& s : samples_) {
     s.wrong = false;
@@ -386,18 +413,24 @@ Verification ContactSet::verify(const rod::ChainShape& shape, const vessel::Fiel
     // Within its clearance a sample cannot have touched anything, nor passed a wall.
     if (u.norm() < s.clearance_mm) continue;
     double error = HUGE_VAL;
+    // At the very place of detection the walls are the field; what they still miss there is the field's own roughness.
+    const double allowed = rough_field || u.norm() < kAtDetection_mm
+                               ? std::max(spec.gap_error_mm, field.error_mm())
+                               : spec.gap_error_mm;
     if (u.norm() < kShortMove_mm || reachable(field, s.detected_at_mm, x)) {
       double predicted = HUGE_VAL;
       for (int k = 0; k < s.walls; ++k) predicted = std::min(predicted, local_height_mm(s.wall[at(k)], u));
-      const double actual = field.at(x).distance_mm;
+      double actual = field.at(x).distance_mm;
       if (std::min(actual, predicted) >= s.radius_mm) continue;
+      if (s.at_crest && actual > predicted + allowed) {  // the crest has slid along the wire
+        Sample there = s;
+        seek_crest(wire, field, spec, there);
+        actual = field.at(there.position_mm(shape)).distance_mm;
+      }
       error = s.walls == 0 ? s.radius_mm - actual : std::abs(actual - predicted);
     }
     result.gap_error_mm = std::max(result.gap_error_mm, error);
-    // At the very place of detection the walls are the field; what they still miss there is the field's own roughness.
-    s.wrong =
-        error > (rough_field || u.norm() < kAtDetection_mm ? std::max(spec.gap_error_mm, field.error_mm())
-                                                           : spec.gap_error_mm);
+    s.wrong = error > allowed;
     result.wrong_samples += s.wrong ? 1 : 0;
   }
   return result;
@@ -419,7 +452,7 @@ void ContactSet::remember(const rod::ChainShape& shape, FrictionMemory& memory) 
     const bool rubs = s.walls > 0 && s.friction > 0.0 && s.lagged_normal_n > 0.0;
     memory.anchor_mm.push_back(rubs ? friction_anchor(friction_of(s), slip_of(s, shape))
                                     : Eigen::Vector2d::Zero());
-    memory.normal_n_per_mm.push_back(s.walls > 0 ? s.normal_n / s.share_mm : 0.0);
+    memory.normal_n_per_mm.push_back(s.walls > 0 ? s.normal_n / s.share_mm() : 0.0);
   }
 }
 

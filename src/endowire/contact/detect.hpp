@@ -1,6 +1,8 @@
 #pragma once
 
-#include "endowire/contact/contact_set.hpp"
+#include "endowire/contact/contact_spec.hpp"
+#include "endowire/contact/sample.hpp"
+#include "endowire/vessel/field.hpp"
 
 namespace endowire::contact {
 
@@ -16,9 +18,10 @@ namespace endowire::contact {
 /// Finds up to three local walls around sample.detected_at_mm, which must be set and lie in the lumen; where that is nearer to
 /// the wall than the wire's radius, it is lifted to the radius first.
 ///
-/// The nearest wall comes with its principal curvatures, from differences of the field's gradient. Then the field is probed
-/// around the sample: where it is nearer than the walls found so far predict (a corner between two facets, the far
-/// side of a narrow lumen, both sides of a carina), another wall is added, as a plane.
+/// The nearest wall is a plane; round, where the field a little way off on both sides has the heights and slopes of a circle;
+/// or two planes of a ridge, where it is convex along the wire. Where the field there is nearer than that predicts (a corner
+/// between two facets, the far side of a narrow lumen, both sides of a carina), another wall is added, as a plane. At a
+/// crest the wall has no slope along the wire, and falls away there.
 /// @param tangent  of the wire, unit
 void find_local_walls(const vessel::Field& field, const ContactSpec& spec, const Eigen::Vector3d& tangent,
                       Sample& sample);

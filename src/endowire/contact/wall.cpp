@@ -32,26 +32,23 @@ double wall_cap_mm(const WallSpec& spec, double lumen_radius_mm, double tissue_m
 
 WallResponse wall_response(double stiffness_n_per_mm, double cap_mm, double depth_mm) {
   if (!(depth_mm > 0.0)) return {};
-  const bool onset = depth_mm < kWallOnset_mm;
-  const double t = depth_mm / kWallOnset_mm;
-  const double s = onset ? kWallOnset_mm * t * t * t * (1.0 - 0.5 * t) : depth_mm - 0.5 * kWallOnset_mm;
-  const double ds = onset ? t * t * (3.0 - 2.0 * t) : 1.0;
-  const double dds = onset ? 6.0 * t * (1.0 - t) / kWallOnset_mm : 0.0;
-  const auto law = [&](double x) {
-    // ∫ kx/(1 − x/c) dx = −k c² (x/c + ln(1 − x/c))
-    const double q = 1.0 - x / cap_mm;
-    return WallResponse{-stiffness_n_per_mm * cap_mm * cap_mm * (x / cap_mm + std::log1p(-x / cap_mm)),
-                        stiffness_n_per_mm * x / q, stiffness_n_per_mm / (q * q), stiffness_n_per_mm * x / q};
-  };
   const double last = kTangentFrom * cap_mm;
-  WallResponse w = law(std::min(s, last));
-  if (s > last) {
-    const double beyond = s - last;
+  const double x = std::min(depth_mm, last);
+  // ∫ kx/(1 − x/c) dx = −k c² (x/c + ln(1 − x/c))
+  const double q = 1.0 - x / cap_mm;
+  WallResponse w{-stiffness_n_per_mm * cap_mm * cap_mm * (x / cap_mm + std::log1p(-x / cap_mm)),
+                 stiffness_n_per_mm * x / q, stiffness_n_per_mm / (q * q)};
+  if (depth_mm > last) {
+    const double beyond = depth_mm - last;
     w.energy_mj += w.force_n * beyond + 0.5 * w.stiffness_n_per_mm * beyond * beyond;
     w.force_n += w.stiffness_n_per_mm * beyond;
   }
-  return {w.energy_mj, w.force_n * ds, w.stiffness_n_per_mm * ds * ds + w.force_n * dds,
-          w.bounded_force_n * ds};
+  return w;
+}
+
+double wall_depth_mm(double stiffness_n_per_mm, double cap_mm, double force_n) {
+  const double linear = force_n / stiffness_n_per_mm;
+  return std::min(kTangentFrom * cap_mm, linear / (1.0 + linear / cap_mm));
 }
 
 }  // namespace endowire::contact

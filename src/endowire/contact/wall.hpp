@@ -34,21 +34,17 @@ struct WallResponse {
   double energy_mj = 0.0;
   double force_n = 0.0;
   double stiffness_n_per_mm = 0.0;
-  /// The force, but no more than at the end of the law's own range. Times the curvature of the wall it enters Hessians: what
-  /// a state far inside the wall pushes back with says nothing about equilibrium.
-  double bounded_force_n = 0.0;
 };
-
-/// ε: depth over which the wall's stiffness sets in, so that Newton sees a continuous Hessian.
-inline constexpr double kWallOnset_mm = 0.005;
 
 /// Response of the wall to a depth (> 0 into the wall).
 ///
-///   F = s' k s/(1 − s/c),   s(δ) = ε(t³ − t⁴/2), t = δ/ε, for 0 < δ < ε;  δ − ε/2 beyond
+///   F = k δ/(1 − δ/c)
 ///
-/// s has two continuous derivatives, so that the stiffness has no jump (δ²/2ε made it fall by a third at ε).
 /// Linear with stiffness k, stiffening to the cap c; from 0.9 c on continued by its tangent, which is 100 k, so that
-/// the energy is defined for every trial state. ε is kWallOnset_mm.
+/// the energy is defined for every trial state. Its stiffness jumps at δ = 0, and convexity is what Newton needs there.
 [[nodiscard]] WallResponse wall_response(double stiffness_n_per_mm, double cap_mm, double depth_mm);
+
+/// The depth at which the wall pushes back with a force >= 0, within the law's own range.
+[[nodiscard]] double wall_depth_mm(double stiffness_n_per_mm, double cap_mm, double force_n);
 
 }  // namespace endowire::contact

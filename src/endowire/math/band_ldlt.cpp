@@ -16,25 +16,28 @@ void BandMatrix::fix(int index) {
   lower(index, index) = 1.0;
 }
 
-int BandMatrix::factorise(const std::vector<double>& shift) {
-  std::copy(columns_.begin(), columns_.end(), factor_.begin());
+int BandMatrix::factorise(double shift) {
+  for (int c = 0; c < size_; ++c) {
+    double& diagonal = columns_[static_cast<std::size_t>(c)][0];
+    pivots_[static_cast<std::size_t>(c)] = std::abs(diagonal) + shift;
+    diagonal += shift;
+  }
   int not_positive = 0;
   // Right-looking: each column, once final, is subtracted from the ten that follow. Entries beyond the matrix are zero.
   for (int c = 0; c < size_; ++c) {
     const auto uc = static_cast<std::size_t>(c);
-    Column& column = factor_[uc];
-    if (!shift.empty()) column[0] += shift[uc];
+    Column& column = columns_[uc];
     // What the columns before took off the diagonal; a pivot lost in its rounding is no pivot.
-    const double scale = std::abs(columns_[uc][0]) + (shift.empty() ? 0.0 : shift[uc]);
+    const double scale = pivots_[uc];
     double pivot = column[0];
     if (!(pivot > kRelativePivot * scale)) {
       ++not_positive;
       if (!(std::abs(pivot) > kRelativePivot * scale)) pivot = -kRelativePivot * (scale + 1e-300);
     }
     const double inverse = 1.0 / pivot;
-    inverse_pivots_[uc] = inverse;
+    pivots_[uc] = inverse;
     for (std::size_t i = 1; i <= kWidth; ++i) {
-      Column& next = factor_[uc + i];
+      Column& next = columns_[uc + i];
       const double l = column[i] * inverse;
       for (std::size_t k = i; k <= kWidth; ++k) next[k - i] -= l * column[k];
     }
@@ -47,7 +50,7 @@ void BandMatrix::solve(std::vector<double>& x) const {
   // Lengths known to the compiler but for the last ten rows: these loops are a third of a Newton iteration.
   const int whole = std::max(0, size_ - kWidth);
   for (int c = 0; c < size_; ++c) {
-    const Column& l = factor_[static_cast<std::size_t>(c)];
+    const Column& l = columns_[static_cast<std::size_t>(c)];
     double* at = x.data() + c;
     if (c < whole) {
       for (std::size_t i = 1; i <= kWidth; ++i) at[i] -= l[i] * at[0];
@@ -56,9 +59,9 @@ void BandMatrix::solve(std::vector<double>& x) const {
     }
   }
   for (int c = size_ - 1; c >= 0; --c) {
-    const Column& l = factor_[static_cast<std::size_t>(c)];
+    const Column& l = columns_[static_cast<std::size_t>(c)];
     double* at = x.data() + c;
-    double even = at[0] * inverse_pivots_[static_cast<std::size_t>(c)];
+    double even = at[0] * pivots_[static_cast<std::size_t>(c)];
     double odd = 0.0;
     if (c < whole) {
       for (std::size_t i = 1; i <= kWidth; i += 2) {
@@ -74,12 +77,22 @@ void BandMatrix::solve(std::vector<double>& x) const {
 
 void BandMatrix::multiply(const std::vector<double>& x, std::vector<double>& y) const {
   std::fill(y.begin(), y.end(), 0.0);
-  for (int r = 0; r < size_; ++r) {
-    for (int c = std::max(0, r - kWidth); c <= r; ++c) {
-      const double entry = lower(r, c);
-      y[static_cast<std::size_t>(r)] += entry * x[static_cast<std::size_t>(c)];
-      if (c != r) y[static_cast<std::size_t>(c)] += entry * x[static_cast<std::size_t>(r)];
+  const int whole = std::max(0, size_ - kWidth);
+  for (int c = 0; c < size_; ++c) {
+    const Column& a = columns_[static_cast<std::size_t>(c)];
+    const double* from = x.data() + c;
+    double* to = y.data() + c;
+    double sum = a[0] * from[0];
+    const auto pair = [&](std::size_t i) {
+      to[i] += a[i] * from[0];
+      sum += a[i] * from[i];
+    };
+    if (c < whole) {
+      for (std::size_t i = 1; i <= kWidth; ++i) pair(i);
+    } else {
+      for (int i = 1; i < size_ - c; ++i) pair(static_cast<std::size_t>(i));
     }
+    to[0] += sum;
   }
 }
 

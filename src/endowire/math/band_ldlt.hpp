@@ -27,13 +27,11 @@ class BandMatrix {
   void resize(int size) {
     size_ = size;
     columns_.resize(padded(size));
-    factor_.resize(padded(size));
-    inverse_pivots_.resize(static_cast<std::size_t>(size));
+    pivots_.resize(static_cast<std::size_t>(size));
   }
   void reserve(int size) {
     columns_.reserve(padded(size));
-    factor_.reserve(padded(size));
-    inverse_pivots_.reserve(static_cast<std::size_t>(size));
+    pivots_.reserve(static_cast<std::size_t>(size));
   }
   void set_zero() { std::fill(columns_.begin(), columns_.end(), Column{}); }
   [[nodiscard]] int size() const { return size_; }
@@ -51,14 +49,14 @@ class BandMatrix {
   /// Makes `index` an identity row: its unknown stays where it is.
   void fix(int index);
 
-  /// Factorises A + diag(shift); A itself is kept. `shift` may be empty.
+  /// Factorises A + shift·I in place: A is gone until it is filled anew.
   /// @return the number of pivots that are not positive: 0 means positive definite.
-  int factorise(const std::vector<double>& shift);
+  int factorise(double shift = 0.0);
 
-  /// Solves with the last factorisation, in place.
+  /// Solves with the factorisation, in place.
   void solve(std::vector<double>& x) const;
 
-  /// y = A x.
+  /// y = A x, for a matrix that is not factorised.
   void multiply(const std::vector<double>& x, std::vector<double>& y) const;
 
  private:
@@ -68,8 +66,7 @@ class BandMatrix {
 
   int size_ = 0;
   std::vector<Column> columns_;
-  std::vector<Column> factor_;
-  std::vector<double> inverse_pivots_;
+  std::vector<double> pivots_;  ///< the diagonal of A while factorising, then the inverse pivots
 };
 
 }  // namespace endowire::math

@@ -37,6 +37,8 @@ void ChainProblem::reserve(int rods, std::size_t samples) {
   const auto unknowns = at(4 * (rods + 1));
   held.reserve(unknowns);
   cartesian_.reserve(unknowns);
+  contact_gradient_.reserve(unknowns);
+  model_.reserve(samples);
   geometric_force_.reserve(at(rods));
 }
 
@@ -197,13 +199,24 @@ double ChainProblem::linearise(math::BandMatrix& hessian, std::vector<double>& g
     moment_turn_ = turn_about(loads.tip_moment_axis, shape.frames[0].col(2), moment_turn_);
   }
   energy += add_loads(hessian, gradient);
-  energy += contact.add_derivatives(shape, hessian, gradient);
+  contact_gradient_.assign(gradient.size(), 0.0);
+  contact_energy_ = contact.linearise(shape, {}, hessian, contact_gradient_, model_);
+  energy += contact_energy_;
+  for (std::size_t i = 0; i < gradient.size(); ++i) gradient[i] += contact_gradient_[i];
   rod::geometric_force_n(material, shape, gradient, held, scratch_, geometric_force_);
   energy += rod::add_stretch_derivatives(material, shape, geometric_force_, hessian, gradient);
   if (feed.active) energy += add_feed(hessian, gradient);
   hold(hessian, gradient);
+  if (feed.active) {
+    double* joint = contact_gradient_.data() + 4 * (shape.rods() - 1);
+    joint[0] = feed.direction.dot(Eigen::Vector3d(joint[0], joint[1], joint[2]));
+  }
   measure_scales();
   return energy;
+}
+
+contact::GuidedJoint ChainProblem::guided() const {
+  return feed.active ? contact::GuidedJoint{shape.rods() - 1, feed.direction} : contact::GuidedJoint{};
 }
 
 void ChainProblem::hold(math::BandMatrix& hessian, std::vector<double>& gradient) const {
@@ -214,14 +227,27 @@ void ChainProblem::hold(math::BandMatrix& hessian, std::vector<double>& gradient
   }
 }
 
-bool ChainProblem::anticipate(const std::vector<double>& direction, math::BandMatrix& hessian,
-                              std::vector<double>& gradient) {
-  if (contact.empty()) return false;
-  to_cartesian(direction);
-  if (!contact.anticipate(shape, cartesian_, feed.active ? shape.rods() - 1 : -1, hessian, gradient))
-    return false;
+solve::ContactPart ChainProblem::add_contacts(const std::vector<double>& step, bool assumed,
+                                              math::BandMatrix& hessian, std::vector<double>& gradient) {
+  if (model_.empty()) return {};
+  double known = contact_energy_;
+  for (std::size_t i = 0; i < gradient.size(); ++i) {
+    gradient[i] -= contact_gradient_[i];
+    known += contact_gradient_[i] * step[i];
+  }
+  const contact::ModelPart part = model_.add_derivatives(step, assumed, guided(), hessian, gradient);
   hold(hessian, gradient);
+  return {part.energy_mj - known, part.changed};
+}
+
+bool ChainProblem::correct_contacts(const std::vector<double>& step) {
+  if (model_.empty()) return false;
+  contact.correct(trial_, step, guided(), model_);
   return true;
+}
+
+solve::Validity ChainProblem::check() {
+  return checker ? checker() : solve::Problem::check();
 }
 
 /// Unknowns as displacements of the joints: at the sheath, the one motion along it moves both of its joints.
@@ -259,8 +285,10 @@ double ChainProblem::try_step(const std::vector<double>& direction, double alpha
 }
 
 void ChainProblem::accept_step() {
+  contact.recall_closed(model_);
   std::swap(shape, trial_);
   feed = trial_feed_;
+  if (on_step) on_step();
 }
 
 bool ChainProblem::inside_region() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "endowire/contact/contact_set.hpp"
@@ -66,14 +67,21 @@ class ChainProblem final : public solve::Problem {
 
   [[nodiscard]] int unknowns() const override { return 4 * (shape.rods() + 1); }
   double linearise(math::BandMatrix& hessian, std::vector<double>& gradient) override;
-  bool anticipate(const std::vector<double>& direction, math::BandMatrix& hessian,
-                  std::vector<double>& gradient) override;
+  solve::ContactPart add_contacts(const std::vector<double>& step, bool assumed, math::BandMatrix& hessian,
+                                  std::vector<double>& gradient) override;
+  bool correct_contacts(const std::vector<double>& step) override;
   double try_step(const std::vector<double>& direction, double alpha) override;
   void accept_step() override;
   [[nodiscard]] solve::ForceScales scales() const override { return scales_; }
   [[nodiscard]] double lag_error() const override { return contact.lag_error(); }
   void renew_lagged() override { contact.renew_lagged(); }
   [[nodiscard]] bool inside_region() const override;
+  solve::Validity check() override;
+
+  /// What check() asks; without it the walls hold wherever the region does.
+  std::function<solve::Validity()> checker;
+  /// Called after every step taken.
+  std::function<void()> on_step;
 
   /// Force and torque of the hand on the wire at the base state.
   [[nodiscard]] double push_force_n() const;
@@ -87,6 +95,7 @@ class ChainProblem final : public solve::Problem {
   double add_feed(math::BandMatrix& hessian, std::vector<double>& gradient);
   void onto_sheath_line(math::BandMatrix& hessian, std::vector<double>& gradient) const;
   void hold(math::BandMatrix& hessian, std::vector<double>& gradient) const;
+  [[nodiscard]] contact::GuidedJoint guided() const;
   void to_cartesian(const std::vector<double>& direction);
   void measure_scales();
 
@@ -94,6 +103,9 @@ class ChainProblem final : public solve::Problem {
   Feed trial_feed_;
   rod::TridiagonalScratch scratch_;
   std::vector<double> cartesian_;
+  contact::ContactModel model_;
+  std::vector<double> contact_gradient_;  ///< at the base state
+  double contact_energy_ = 0.0;
   std::vector<double> geometric_force_;
   solve::ForceScales scales_;
   double moment_turn_ = 0.0;

@@ -23,43 +23,65 @@ Eigen::Vector3d point_at(const rod::ChainMaterial& material, const std::vector<E
   return joints[at(rod)] + fraction * (joints[at(rod + 1)] - joints[at(rod)]);
 }
 
-}  // namespace
-
-void predict(const rod::ChainMaterial& material, const Eigen::Vector3d& sheath_point,
-             const Eigen::Vector3d& sheath_direction, double inserted_mm, double advance_mm, double turn_rad,
-             rod::ChainShape& shape, std::vector<Eigen::Vector3d>& trace) {
-  const int n = shape.rods();
-  trace.assign(shape.joints_mm.begin(), shape.joints_mm.end());
-  const double half = inserted_mm - material.arc_mm[at(n - 1)];
-  shape.joints_mm[at(n - 1)] = sheath_point + half * sheath_direction;
-  shape.joints_mm[at(n)] = sheath_point - half * sheath_direction;
-  // The polyline is parametrised as it was before the advance: the sheath rod was shorter by the advance on each side.
-  int rod = n - 1;
-  Eigen::Vector3d old_hand = point_at(material, trace, material.arc_mm[at(n - 1)] - advance_mm, rod);
-  for (int i = n - 2; i >= 0; --i) {
-    const double length = (trace[at(i)] - trace[at(i + 1)]).norm();
-    const Eigen::Vector3d old_tip = point_at(material, trace, material.arc_mm[at(i)] - advance_mm, rod);
-    shape.joints_mm[at(i)] = shape.joints_mm[at(i + 1)] + length * (old_tip - old_hand).normalized();
-    old_hand = old_tip;
-  }
-  for (int i = 0; i < n; ++i) {
+/// Turns the frames to the directions of their rods.
+void transport_frames(rod::ChainShape& shape) {
+  for (int i = 0; i < shape.rods(); ++i) {
     rod::Frame& frame = shape.frames[at(i)];
     const Eigen::Vector3d e = (shape.joints_mm[at(i)] - shape.joints_mm[at(i + 1)]).normalized();
-    Eigen::Vector3d m1 = math::parallel_transport(frame.col(0), frame.col(2), e);
-    if (i == n - 1) {
-      m1 = math::spin_about(m1, e, turn_rad);
-      shape.spin_rad[at(i)] += turn_rad;
-      shape.twist_rad[at(i)] -= turn_rad;
-    }
-    m1 = math::normal_part(m1, e);
+    const Eigen::Vector3d m1 = math::normal_part(math::parallel_transport(frame.col(0), frame.col(2), e), e);
     frame.col(0) = m1;
     frame.col(1) = e.cross(m1);
     frame.col(2) = e;
   }
-  for (int j = 1; j < n; ++j) {
+  for (int j = 1; j < shape.rods(); ++j) {
     shape.twist_rad[at(j)] =
         rod::twist_between(shape.frames[at(j)], shape.frames[at(j - 1)], shape.twist_rad[at(j)]);
   }
+}
+
+}  // namespace
+
+void follow_trace(const rod::ChainMaterial& material, const Eigen::Vector3d& sheath_point,
+                  const Eigen::Vector3d& sheath_direction, const HandStep& hand, rod::ChainShape& shape,
+                  std::vector<Eigen::Vector3d>& trace) {
+  const int n = shape.rods();
+  trace.assign(shape.joints_mm.begin(), shape.joints_mm.end());
+  const double half = hand.inserted_mm - material.arc_mm[at(n - 1)];
+  shape.joints_mm[at(n - 1)] = sheath_point + half * sheath_direction;
+  shape.joints_mm[at(n)] = sheath_point - half * sheath_direction;
+  // The polyline is parametrised as it was before the advance: the sheath rod was shorter by the advance on each side.
+  int rod = n - 1;
+  Eigen::Vector3d old_hand = point_at(material, trace, material.arc_mm[at(n - 1)] - hand.advance_mm, rod);
+  for (int i = n - 2; i >= 0; --i) {
+    const double length = (trace[at(i)] - trace[at(i + 1)]).norm();
+    const Eigen::Vector3d old_tip = point_at(material, trace, material.arc_mm[at(i)] - hand.advance_mm, rod);
+    shape.joints_mm[at(i)] = shape.joints_mm[at(i + 1)] + length * (old_tip - old_hand).normalized();
+    old_hand = old_tip;
+  }
+  rod::Frame& held = shape.frames[at(n - 1)];
+  held.col(0) = math::spin_about(held.col(0), held.col(2), hand.turn_rad);
+  shape.spin_rad[at(n - 1)] += hand.turn_rad;
+  shape.twist_rad[at(n - 1)] -= hand.turn_rad;
+  transport_frames(shape);
+}
+
+void follow_drift(const Drift& drift, double advance_mm, rod::ChainShape& shape,
+                  std::vector<Eigen::Vector3d>& scratch) {
+  constexpr double kMostOften = 2.0;  // further ahead than twice the last step its drift tells nothing
+  if (!(drift.advance_mm * advance_mm > 0.0)) return;
+  const double ratio = std::min(kMostOften, advance_mm / drift.advance_mm);
+  const int n = shape.rods();
+  const int moved = std::min(n - 1, static_cast<int>(drift.joints_mm.size()));
+  scratch.assign(shape.joints_mm.begin(), shape.joints_mm.end());
+  for (int i = 0; i < moved; ++i) scratch[at(i)] += ratio * drift.joints_mm[at(i)];
+  double length = moved > 0 ? (shape.joints_mm[at(moved - 1)] - shape.joints_mm[at(moved)]).norm() : 0.0;
+  for (int i = moved - 1; i >= 0; --i) {
+    const double next = i > 0 ? (shape.joints_mm[at(i - 1)] - shape.joints_mm[at(i)]).norm() : 0.0;
+    shape.joints_mm[at(i)] =
+        shape.joints_mm[at(i + 1)] + length * (scratch[at(i)] - scratch[at(i + 1)]).normalized();
+    length = next;
+  }
+  transport_frames(shape);
 }
 
 }  // namespace endowire::sim

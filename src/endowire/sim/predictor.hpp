@@ -7,14 +7,32 @@
 
 namespace endowire::sim {
 
-/// First guess of a step: every joint moves along its own rods by `advance_mm`, as if the wire slid in its own
+/// What the equilibrium of a step differed from its trace by. A tip that slides along a wall differs alike in every step.
+struct Drift {
+  double advance_mm = 0.0;                 ///< of that step; 0 when it tells nothing
+  std::vector<Eigen::Vector3d> joints_mm;  ///< of each joint from the tip on
+
+  bool operator==(const Drift&) const = default;
+};
+
+/// The motion of the hand in one step.
+struct HandStep {
+  double inserted_mm = 0.0;  ///< length beyond the sheath after the advance
+  double advance_mm = 0.0;
+  double turn_rad = 0.0;  ///< the rod in the sheath turns at once, the others do not yet
+};
+
+/// First guess of a step: every joint moves along its own rods by the advance, as if the wire slid in its own
 /// trace; beyond the tip the trace goes on straight. Rods keep the stretch they have; frames are transported.
 /// @param sheath_point, sheath_direction  the line on which joints n − 1 and n stay
-/// @param inserted_mm                     length beyond the sheath after the advance
-/// @param turn_rad                        turn of the hand: the rod in the sheath turns at once, the others do not yet
 /// @param trace                           scratch, whose memory is used again
-void predict(const rod::ChainMaterial& material, const Eigen::Vector3d& sheath_point,
-             const Eigen::Vector3d& sheath_direction, double inserted_mm, double advance_mm, double turn_rad,
-             rod::ChainShape& shape, std::vector<Eigen::Vector3d>& trace);
+void follow_trace(const rod::ChainMaterial& material, const Eigen::Vector3d& sheath_point,
+                  const Eigen::Vector3d& sheath_direction, const HandStep& hand, rod::ChainShape& shape,
+                  std::vector<Eigen::Vector3d>& trace);
+
+/// Moves the joints that are free as in the last step, in proportion to the advance and when it is of the same sense; rods keep
+/// their lengths.
+void follow_drift(const Drift& drift, double advance_mm, rod::ChainShape& shape,
+                  std::vector<Eigen::Vector3d>& scratch);
 
 }  // namespace endowire::sim

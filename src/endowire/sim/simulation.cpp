@@ -34,15 +34,12 @@ constexpr std::size_t kMaxWaypoints = 64;
 constexpr double kWaypoint_mm = 0.5;
 /// Spacing of the points at which such a shape is checked against the field.
 constexpr double kClearStep_mm = 0.5;
-/// Corrections below which the walls are checked before the solution is polished.
-constexpr double kRough_mm = 0.03;
-constexpr double kRough_rad = 0.02;
+/// Corrections below which the walls are checked, before the solution is polished.
+constexpr double kCheck_mm = 0.05;
 /// Longest motion of a joint in one Newton iteration: local walls are believed about as far.
 constexpr double kMaxStep_mm = 0.7;
 /// Detections within one sub-step: a snap crosses the lumen in pieces of kRegion_mm.
 constexpr int kMaxDetections = 100;
-/// From this detection of a sub-step on, places of detection are bisected.
-constexpr int kBisectFrom = 3;
 /// From this one on the field's own error is allowed.
 constexpr int kUnevenFrom = 12;
 constexpr double kStandardGravity_floor = 1e-12;
@@ -89,6 +86,7 @@ class Simulation::Impl {
   bool advance(const Command& command, int split);
   bool advance_once(const Command& command);
   bool settle();
+  solve::Validity check_walls();
   void keep_waypoint(double least_motion_mm);
   [[nodiscard]] bool lies_clear() const;
   void enter(double inserted_mm, double turn_rad);
@@ -98,6 +96,7 @@ class Simulation::Impl {
   void prepare_material(double inserted_mm);
   void finish(const Command& command);
   void measure();
+  [[nodiscard]] contact::Wire wire() const { return {line_, problem_.material, problem_.shape}; }
   [[nodiscard]] bool in_sheath() const { return problem_.shape.rods() == 0; }
   [[nodiscard]] double first_inside_mm() const { return grid_[1] + kEntry_mm; }
 
@@ -107,7 +106,6 @@ class Simulation::Impl {
   SimulationSpec spec_;
   contact::ContactSpec contact_spec_;
   solve::NewtonSpec newton_spec_;
-  solve::NewtonSpec rough_spec_;  ///< to where it is worth asking whether the walls hold
   std::vector<double> grid_;
   double gravity_m_per_s2_ = 0.0;
 
@@ -115,7 +113,10 @@ class Simulation::Impl {
   solve::Newton newton_;
   contact::FrictionMemory friction_;
   double hand_turn_rad_ = 0.0;
+  int rounds_ = 0;  ///< detections of single samples since the detection of all
   std::vector<Eigen::Vector3d> trace_;
+  Drift drift_;
+  std::vector<Eigen::Vector3d> traced_;  ///< the trace of the present step, without drift
   std::vector<Eigen::Vector3d> predicted_;
   std::vector<Eigen::Vector3d> waypoint_joints_;
 };
@@ -154,10 +155,9 @@ Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrume
   newton_spec_.proximal_scale = solver.proximal_scale;
   newton_spec_.max_iterations = solver.max_iterations;
   newton_spec_.max_step_mm = kMaxStep_mm;
-  rough_spec_ = newton_spec_;
-  rough_spec_.correction_tolerance_mm = std::max(kRough_mm, newton_spec_.correction_tolerance_mm);
-  rough_spec_.correction_tolerance_rad = std::max(kRough_rad, newton_spec_.correction_tolerance_rad);
-  rough_spec_.force_floor_n = rough_spec_.moment_floor_n_mm = rough_spec_.lag_tolerance = HUGE_VAL;
+  newton_spec_.check_correction_mm = kCheck_mm;
+  problem_.checker = [this] { return check_walls(); };
+  problem_.on_step = [this] { keep_waypoint(kWaypoint_mm); };
 
   grid_ = uniform_grid(line_, solver.rod_length_mm, kMaxBias_rad);
   gravity_m_per_s2_ = spec_.gravity_m_per_s2.norm();
@@ -180,7 +180,8 @@ Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrume
   newton_.reserve(4 * (joints + 1));
   friction_.reserve(samples);
   trace_.reserve(at(joints + 1));
-  predicted_.reserve(at(joints + 1));
+  for (auto* list : {&predicted_, &traced_, &drift_.joints_mm, &state_.drift.joints_mm})
+    list->reserve(at(joints + 1));
   waypoints_.reserve(kMaxWaypoints);
   waypoint_joints_.reserve(kMaxWaypoints * at(joints + 1));
   report_.events.reserve(16);
@@ -202,6 +203,8 @@ void Simulation::Impl::save(State& out) const {
   for (std::size_t i = 0; i < shape.frames.size(); ++i) out.directors[i] = shape.frames[i].col(0);
   out.spin_rad.assign(shape.spin_rad.begin(), shape.spin_rad.end());
   out.twist_rad.assign(shape.twist_rad.begin(), shape.twist_rad.end());
+  out.drift.advance_mm = drift_.advance_mm;
+  out.drift.joints_mm.assign(drift_.joints_mm.begin(), drift_.joints_mm.end());
   out.friction.arc_mm.assign(friction_.arc_mm.begin(), friction_.arc_mm.end());
   out.friction.anchor_mm.assign(friction_.anchor_mm.begin(), friction_.anchor_mm.end());
   out.friction.normal_n_per_mm.assign(friction_.normal_n_per_mm.begin(), friction_.normal_n_per_mm.end());
@@ -239,6 +242,8 @@ void Simulation::Impl::restore(const State& state) {
     }
     prepare_material(state.inserted_mm);
   }
+  drift_.advance_mm = state.drift.advance_mm;
+  drift_.joints_mm.assign(state.drift.joints_mm.begin(), state.drift.joints_mm.end());
   friction_.arc_mm.assign(state.friction.arc_mm.begin(), state.friction.arc_mm.end());
   friction_.anchor_mm.assign(state.friction.anchor_mm.begin(), state.friction.anchor_mm.end());
   friction_.normal_n_per_mm.assign(state.friction.normal_n_per_mm.begin(),
@@ -404,8 +409,8 @@ bool Simulation::Impl::advance_once(const Command& command) {
     }
     enter(inserted, hand_turn_rad_ + command.torque_rad);
     problem_.contact.clear();
-    problem_.contact.place(line_, problem_.material, problem_.shape, problem_.shape.rods() - 1, *field_,
-                           contact_spec_, friction_);
+    problem_.contact.place(wire(), problem_.shape.rods() - 1, *field_, contact_spec_, friction_);
+    traced_.assign(problem_.shape.joints_mm.begin(), problem_.shape.joints_mm.end());
   } else {
     if (inserted < grid_[1] + kLeave_mm) {  // back into the sheath
       problem_.shape.joints_mm.clear();
@@ -414,15 +419,18 @@ bool Simulation::Impl::advance_once(const Command& command) {
       problem_.shape.twist_rad.clear();
       problem_.contact.clear();
       friction_.clear();
+      drift_.advance_mm = 0.0;
+      drift_.joints_mm.clear();
       feed.inserted_mm = inserted;
       feed.stretch_mm = feed.twist_rad = 0.0;
       return true;
     }
     adapt_sheath(inserted);
-    problem_.contact.place(line_, problem_.material, problem_.shape, problem_.shape.rods() - 1, *field_,
-                           contact_spec_, friction_);
-    predict(problem_.material, access_.position_mm, access_.direction, inserted, advance_mm,
-            command.torque_rad, problem_.shape, trace_);
+    problem_.contact.place(wire(), problem_.shape.rods() - 1, *field_, contact_spec_, friction_);
+    follow_trace(problem_.material, access_.position_mm, access_.direction,
+                 {inserted, advance_mm, command.torque_rad}, problem_.shape, trace_);
+    traced_.assign(problem_.shape.joints_mm.begin(), problem_.shape.joints_mm.end());
+    follow_drift(drift_, advance_mm, problem_.shape, trace_);
     feed.inserted_mm = inserted;
     problem_.material.arc_mm.back() = 2.0 * inserted - grid_[at(problem_.shape.rods() - 1)];
     rod::fill_material_from(line_, problem_.shape.rods() - 1, gravity_m_per_s2_,
@@ -437,41 +445,36 @@ bool Simulation::Impl::advance_once(const Command& command) {
   return settle();
 }
 
-/// Minimises; samples that left the region in which their walls hold are detected anew, the others are not.
+/// Detects once and minimises; check_walls() is asked on the way.
 bool Simulation::Impl::settle() {
   contact::ContactSet& contact = problem_.contact;
-  const double samples = std::max<double>(1.0, static_cast<double>(contact.samples().size()));
-  contact.detect(problem_.shape, *field_, contact_spec_);
-  if (contact.add_over_ridges(line_, problem_.material, problem_.shape, *field_) > 0) {
-    contact.redetect(problem_.shape, *field_, contact_spec_, 1.0);
+  contact.detect(wire(), *field_, contact_spec_);
+  if (contact.add_over_ridges(wire(), *field_) > 0) {
+    contact.redetect(wire(), *field_, contact_spec_);
   }
   report_.detections += 1.0;
-  bool rough = true;
-  for (int round = 0; round < kMaxDetections; ++round) {
-    report_.solve = newton_.minimise(problem_, rough ? rough_spec_ : newton_spec_);
-    report_.newton_iterations += report_.solve.iterations;
-    const bool left_region = !problem_.inside_region();
-    if (!report_.solve.converged() && !left_region) return false;
-    ++report_.verifications;
-    const contact::Verification check =
-        contact.verify(problem_.shape, *field_, contact_spec_, round >= kUnevenFrom);
-    const int wrong =
-        check.wrong_samples +
-        (round < kUnevenFrom ? contact.add_over_ridges(line_, problem_.material, problem_.shape, *field_)
-                             : 0);
-    if (report_.solve.converged() && wrong == 0) {
-      if (!rough) return true;
-      rough = false;
-      continue;
-    }
-    if (wrong == 0) keep_waypoint(kWaypoint_mm);
+  rounds_ = 0;
+  report_.solve = newton_.minimise(problem_, newton_spec_);
+  report_.newton_iterations += report_.solve.iterations;
+  return report_.solve.converged();
+}
+
+/// Whether the local walls agree with the field; samples that they fail are detected anew, the others are not.
+solve::Validity Simulation::Impl::check_walls() {
+  contact::ContactSet& contact = problem_.contact;
+  ++report_.verifications;
+  const bool rough = rounds_ >= kUnevenFrom;
+  const int wrong = contact.verify(wire(), *field_, contact_spec_, rough).wrong_samples +
+                    contact.add_over_ridges(wire(), *field_, rough);
+  if (wrong == 0) {
+    if (problem_.inside_region()) return solve::Validity::holds;
     // A state on its way that no wall contradicts goes on from where it is.
-    if (wrong == 0) contact.mark_outside(problem_.shape, problem_.region_mm);
-    report_.detections +=
-        contact.redetect(problem_.shape, *field_, contact_spec_, round < kBisectFrom ? 1.0 : 0.5) / samples;
+    contact.mark_outside(problem_.shape, problem_.region_mm);
   }
-  report_.solve.termination = solve::Termination::left_domain;
-  return false;
+  if (++rounds_ == kMaxDetections) return solve::Validity::hopeless;
+  const double samples = std::max<double>(1.0, static_cast<double>(contact.samples().size()));
+  report_.detections += contact.redetect(wire(), *field_, contact_spec_) / samples;
+  return solve::Validity::changed;
 }
 
 /// Whether the wire lies in the lumen all along, within what the wall may yield. Asked of shapes that are no equilibria.
@@ -535,6 +538,10 @@ void Simulation::Impl::finish(const Command& command) {
       report_.events.push_back({EventKind::snap, moved, shape.joints_mm[j]});
       break;
     }
+    drift_.advance_mm = report_.snapped ? 0.0 : command.advance_mm;
+    drift_.joints_mm.resize(shape.joints_mm.size());
+    for (std::size_t j = 0; j < shape.joints_mm.size(); ++j)
+      drift_.joints_mm[j] = shape.joints_mm[j] - traced_[j];
     problem_.contact.remember(shape, friction_);
     feed.stretch_mm = contact::friction_anchor(feed.push, {feed.stretch_mm, 0.0})[0];
     feed.twist_rad = contact::friction_anchor(feed.torque, {feed.twist_rad, 0.0})[0];

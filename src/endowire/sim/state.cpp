@@ -6,10 +6,11 @@ namespace endowire::sim {
 
 std::uint64_t State::hash() const {
   base::Hash h;
-  for (const double v : {inserted_mm, hand_turn_rad, grip_stretch_mm, grip_twist_rad}) h.add(v);
+  for (const double v : {inserted_mm, hand_turn_rad, grip_stretch_mm, grip_twist_rad, drift.advance_mm})
+    h.add(v);
   h.add(steps);
   h.add(static_cast<std::uint64_t>(joints_mm.size()));
-  for (const auto* list : {&joints_mm, &directors}) {
+  for (const auto* list : {&joints_mm, &directors, &drift.joints_mm}) {
     for (const Eigen::Vector3d& v : *list) {
       for (int c = 0; c < 3; ++c) h.add(v[c]);
     }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "endowire/contact/contact_set.hpp"
+#include "endowire/sim/predictor.hpp"
 
 namespace endowire::sim {
 
@@ -23,6 +24,7 @@ struct State {
   std::vector<double> spin_rad;            ///< unwrapped turn of each rod about its axis
   std::vector<double> twist_rad;           ///< unwrapped twist at each joint
   contact::FrictionMemory friction;        ///< anchors by material arc, tip first
+  Drift drift;                             ///< of the last step: the next one begins with it
 
   bool operator==(const State&) const = default;
   /// Bits of everything above.

@@ -8,29 +8,38 @@ namespace endowire::solve {
 namespace {
 
 constexpr double kFirstWeight =
-    1e-4;  // N/mm: the lateral stiffness of a soft 30 mm tip; below it snaps are not slowed
+    1e-6;  // N/mm: below the lateral stiffness of a soft tip; a larger one makes snaps creep
 constexpr double kLargestWeight = 1e8;  // stiffer than any rod along its axis: beyond it the matrix is broken
+constexpr double kRaise = 4.0;
 constexpr double kArmijo = 1e-4;
 constexpr int kMaxHalvings = 30;
-constexpr int kMaxAnticipations = 6;
+constexpr int kWholeRounds = 8;
+constexpr int kDescendingRounds = 8;  // cut off, the direction still descends
+constexpr int kRoundAttempts = 6;
+constexpr double kModelShare = 0.02;     // rounds end once they change the direction by less than this share
+constexpr double kModelFloor_mm = 1e-4;  // and below this: the next iteration does that anyway
 constexpr double kCalm_mm =
-    0.2;  // lagged forces are renewed once steps are this short: before, they mean nothing
+    0.2;  // lagged forces are renewed after full steps this short: before, they mean nothing
+constexpr double kUnchecked_mm =
+    0.01;  // motion after which a settling state is checked once more before it is polished
 constexpr double kPoorStep =
     0.3;  // a line search that ends below this share says: the model was bad, trust less
 constexpr double kShorten =
     2.0;  // a direction up to this many trust radii long is shortened, a longer one bent by the weight
 constexpr double kSmallestTrust_mm = 0.05;
-constexpr double kStraight =
-    0.8;  // a quadratic falls by half of its slope per full step, a straight line by all
-constexpr double kWorthExtending =
-    1e-9;  // relative decrease of the merit below which a step is never lengthened
 
 }  // namespace
 
 void Newton::reserve(int unknowns) {
-  hessian_.reserve(unknowns);
-  for (auto* v : {&gradient_, &model_gradient_, &direction_, &shift_})
+  for (auto* m : {&hessian_, &matrix_}) m->reserve(unknowns);
+  for (auto* v : {&gradient_, &model_gradient_, &direction_, &round_, &product_, &best_, &kept_})
     v->reserve(static_cast<std::size_t>(unknowns));
+}
+
+void Newton::resize(int unknowns) {
+  hessian_.resize(unknowns);
+  for (auto* v : {&gradient_, &model_gradient_, &direction_, &round_, &product_, &best_, &kept_})
+    v->resize(static_cast<std::size_t>(unknowns));
 }
 
 Newton::Norms Newton::norms(const std::vector<double>& v) {
@@ -44,46 +53,114 @@ Newton::Norms Newton::norms(const std::vector<double>& v) {
   return n;
 }
 
-int Newton::factorise(double lambda) {
-  if (lambda == 0.0) return hessian_.factorise(empty_);
-  std::fill(shift_.begin(), shift_.end(), lambda);
-  return hessian_.factorise(shift_);
+double Newton::linearise(Problem& problem) {
+  hessian_.set_zero();
+  std::fill(gradient_.begin(), gradient_.end(), 0.0);
+  return problem.linearise(hessian_, gradient_);
 }
 
 int Newton::inertia(Problem& problem) {
-  const int n = problem.unknowns();
-  hessian_.resize(n);
-  hessian_.set_zero();
-  gradient_.assign(static_cast<std::size_t>(n), 0.0);
-  problem.linearise(hessian_, gradient_);
-  return factorise(0.0);
+  resize(problem.unknowns());
+  linearise(problem);
+  std::fill(direction_.begin(), direction_.end(), 0.0);
+  static_cast<void>(model_at_direction(problem, 0.0, false));
+  return matrix_.factorise();
 }
 
-/// Solves with the last factorisation; anticipated contacts are added and the model is solved again.
-void Newton::find_direction(Problem& problem, double lambda, SolveReport& report) {
-  for (int round = 0;; ++round) {
-    for (std::size_t i = 0; i < direction_.size(); ++i) direction_[i] = -model_gradient_[i];
-    hessian_.solve(direction_);
-    if (!anticipating_ || round == kMaxAnticipations ||
-        !problem.anticipate(direction_, hessian_, model_gradient_))
-      return;
-    ++report.factorisations;
-    factorise(lambda);
+/// Sets matrix_ and model_gradient_ at direction_; returns the value of the model there.
+ContactPart Newton::model_at_direction(Problem& problem, double lambda, bool assumed) {
+  matrix_ = hessian_;
+  hessian_.multiply(direction_, product_);
+  double value = 0.0;
+  for (std::size_t i = 0; i < direction_.size(); ++i) {
+    const double pull = product_[i] + lambda * direction_[i];
+    value += direction_[i] * (gradient_[i] + 0.5 * pull);
+    model_gradient_[i] = gradient_[i] + pull;
   }
+  ContactPart contacts = problem.add_contacts(direction_, assumed, matrix_, model_gradient_);
+  contacts.value_mj += value;
+  return contacts;
 }
 
-/// Raises the proximal weight until the matrix is positive definite and the step no longer than the trust radius.
-bool Newton::restrict_direction(Problem& problem, double trust_mm, const NewtonSpec& spec,
-                                SolveReport& report) {
-  double lambda = std::max(0.1 * last_weight_, spec.proximal_scale * kFirstWeight);
-  for (; lambda < kLargestWeight; lambda *= 10.0) {
-    ++report.factorisations;
-    if (factorise(lambda) > 0) continue;
-    find_direction(problem, lambda, report);
-    if (!(norms(direction_).position > kShorten * trust_mm)) break;
+/// One round: from the model at direction_, which matrix_ and model_gradient_ hold, to round_. False when the matrix is not
+/// positive definite.
+bool Newton::solve_round(double lambda, SolveReport& report) {
+  ++report.factorisations;
+  if (matrix_.factorise(lambda) > 0) return false;
+  for (std::size_t i = 0; i < round_.size(); ++i) round_[i] = -model_gradient_[i];
+  matrix_.solve(round_);
+  return true;
+}
+
+/// Minimises the model; the result is in direction_. False when it is not positive definite.
+///
+/// Whole rounds, which need not descend, find the contacts that close in a few; when they have not after kWholeRounds, the
+/// best of them is improved in rounds that do descend.
+bool Newton::solve_model(Problem& problem, double lambda, bool from_rest, SolveReport& report) {
+  if (from_rest) std::fill(direction_.begin(), direction_.end(), 0.0);
+  double least = HUGE_VAL;
+  for (int round = 0; round < kWholeRounds; ++round) {
+    const ContactPart model = model_at_direction(problem, lambda, round == 0);
+    if (round > 0 && !model.changed) return true;
+    if (model.value_mj < least) {
+      least = model.value_mj;
+      best_ = direction_;
+    }
+    if (!solve_round(lambda, report)) return false;
+    for (std::size_t i = 0; i < round_.size(); ++i) direction_[i] += round_[i];
+    const Norms change = norms(round_);
+    const Norms whole = norms(direction_);
+    if (!std::isfinite(change.position)) return true;
+    if (round > 0 && small_change(change, whole)) return true;
+    if (round == 0 && !model.changed && change.position <= kModelFloor_mm && change.turn <= kModelFloor_mm) return true;
   }
-  last_weight_ = lambda;
-  return lambda < kLargestWeight;
+  direction_ = best_;
+  for (int round = 0; round < kDescendingRounds; ++round) {
+    static_cast<void>(model_at_direction(problem, lambda, false));
+    if (!solve_round(lambda, report)) return false;
+    double slope = 0.0;
+    for (std::size_t i = 0; i < round_.size(); ++i) slope += model_gradient_[i] * round_[i];
+    double alpha = 1.0;
+    double taken = 0.0;
+    for (int attempt = 0; attempt < kRoundAttempts; ++attempt) {
+      for (std::size_t i = 0; i < round_.size(); ++i) direction_[i] += (alpha - taken) * round_[i];
+      taken = alpha;
+      const double value = model_at_direction(problem, lambda, false).value_mj;
+      if (value <= least + 1e-4 * alpha * slope) {
+        least = value;
+        break;
+      }
+      double slope_there = 0.0;
+      for (std::size_t i = 0; i < round_.size(); ++i) slope_there += model_gradient_[i] * round_[i];
+      alpha *= std::clamp(slope / (slope - slope_there), 0.1,
+                          0.7);  // secant: short of the minimum of a convex function
+    }
+    Norms change = norms(round_);
+    change.position *= taken;
+    change.turn *= taken;
+    if (small_change(change, norms(direction_))) return true;
+  }
+  return true;
+}
+
+bool Newton::small_change(const Norms& change, const Norms& whole) {
+  return change.position <= std::max(kModelFloor_mm, kModelShare * whole.position) &&
+         change.turn <= std::max(kModelFloor_mm, kModelShare * whole.turn);
+}
+
+/// The minimum of the model within the trust radius; the proximal weight is raised until there is one.
+bool Newton::find_direction(Problem& problem, double trust_mm, const NewtonSpec& spec, SolveReport& report) {
+  lambda_ = 0.0;
+  if (solve_model(problem, 0.0, true, report) && !(norms(direction_).position > kShorten * trust_mm))
+    return true;
+  ++report.regularised_iterations;
+  lambda_ = std::max(last_weight_ / kRaise, spec.proximal_scale * kFirstWeight);
+  for (; lambda_ < kLargestWeight; lambda_ *= kRaise) {
+    if (solve_model(problem, lambda_, true, report) && !(norms(direction_).position > kShorten * trust_mm))
+      break;
+  }
+  last_weight_ = lambda_;
+  return lambda_ < kLargestWeight;
 }
 
 double Newton::slope() const {
@@ -92,41 +169,30 @@ double Newton::slope() const {
   return sum;
 }
 
-/// Lengthens a step along which the merit falls as a straight line: a tip that slides through a snap, whose contacts give
-/// way one by one, would otherwise creep at the pace of their stiffness.
-double Newton::extend_step(Problem& problem, const NewtonSpec& spec, double merit, double trial, double alpha,
-                           double descent, SolveReport& report) {
-  const Norms step = norms(direction_);
-  report.merit_mj = trial;
-  while (report.merit_mj <= merit + kStraight * alpha * descent &&
-         2.0 * alpha * step.position <= spec.max_step_mm && 2.0 * alpha * step.turn <= spec.max_turn_rad &&
-         -alpha * descent > kWorthExtending * (std::abs(merit) + 1.0)) {
-    const double further = problem.try_step(direction_, 2.0 * alpha);
-    if (!(further <= merit + kStraight * 2.0 * alpha * descent)) {
-      problem.try_step(direction_, alpha);
-      break;
-    }
-    alpha *= 2.0;
-    report.merit_mj = further;
-  }
-  return alpha;
-}
-
-double Newton::search_line(Problem& problem, const NewtonSpec& spec, double trust_mm, double merit,
-                           SolveReport& report) {
+double Newton::search_line(Problem& problem, const NewtonSpec& spec, double trust_mm, SolveReport& report) {
   const Norms step = norms(direction_);
   const double descent = slope();
+  if (!(descent < 0.0)) return 0.0;
   double alpha = 1.0;
   if (step.position > trust_mm) alpha = trust_mm / step.position;
   if (step.turn * alpha > spec.max_turn_rad) alpha = spec.max_turn_rad / step.turn;
   // A decrease below the rounding of the merit cannot be seen: the gradient alone judges such a step.
-  const double rounding = 1e-13 * (std::abs(merit) + 1.0);
+  const double rounding = 1e-13 * (std::abs(report.merit_mj) + 1.0);
   for (int halving = 0; halving < kMaxHalvings; ++halving) {
     const double trial = problem.try_step(direction_, alpha);
-    if (trial <= merit + kArmijo * alpha * descent + rounding) {
-      alpha = extend_step(problem, spec, merit, trial, alpha, descent, report);
+    if (trial <= report.merit_mj + kArmijo * alpha * descent + rounding) {
       problem.accept_step();
       return alpha;
+    }
+    if (halving == 0 && alpha == 1.0 && problem.correct_contacts(direction_)) {
+      kept_ = direction_;
+      if (solve_model(problem, lambda_, false, report) &&
+          norms(direction_).position <= kShorten * step.position &&
+          problem.try_step(direction_, 1.0) <= report.merit_mj + kArmijo * descent + rounding) {
+        problem.accept_step();
+        return 1.0;
+      }
+      direction_ = kept_;
     }
     alpha *= 0.5;
     if (-alpha * descent < rounding * 1e-3) break;
@@ -134,85 +200,86 @@ double Newton::search_line(Problem& problem, const NewtonSpec& spec, double trus
   return 0.0;
 }
 
+bool Newton::small_residual(const Problem& problem, const NewtonSpec& spec, SolveReport& report) const {
+  const Norms residual = norms(gradient_);
+  const ForceScales scale = problem.scales();
+  report.force_residual_n = residual.position;
+  report.moment_residual_n_mm = residual.turn;
+  report.force_scale_n = scale.force_n;
+  report.moment_scale_n_mm = scale.moment_n_mm;
+  return residual.position <= spec.force_tolerance * scale.force_n + scale.rounding_n + spec.force_floor_n &&
+         residual.turn <= spec.force_tolerance * scale.moment_n_mm + spec.moment_floor_n_mm;
+}
+
 SolveReport Newton::minimise(Problem& problem, const NewtonSpec& spec) {
-  const int n = problem.unknowns();
-  hessian_.resize(n);
-  for (auto* v : {&gradient_, &model_gradient_, &direction_, &shift_}) v->resize(static_cast<std::size_t>(n));
+  resize(problem.unknowns());
   SolveReport report;
   double trust_mm = spec.max_step_mm;
   last_weight_ = 0.0;
-  for (;; ++report.iterations) {
-    const bool calm = report.iterations > 0 && report.correction_mm <= kCalm_mm;
+  int since_change = 0;
+  double unchecked_mm = HUGE_VAL;  // moved since the problem was last asked
+  bool settled = false;            // the last correction was whole and within its tolerances
+  bool calm = false;
+  const auto end = [&](Termination termination) {
+    report.termination = termination;
+    return report;
+  };
+  const auto within = [&](const Norms& n) {
+    return n.position <= spec.correction_tolerance_mm && n.turn <= spec.correction_tolerance_rad;
+  };
+  for (;; ++report.iterations, ++since_change) {
     if (calm && problem.lag_error() > 0.5 * spec.lag_tolerance) problem.renew_lagged();
-    hessian_.set_zero();
-    std::fill(gradient_.begin(), gradient_.end(), 0.0);
-    report.merit_mj = problem.linearise(hessian_, gradient_);
-
-    ++report.factorisations;
-    const bool definite = factorise(0.0) == 0;
-    model_gradient_ = gradient_;
-    if (definite) find_direction(problem, 0.0, report);
-    if (!definite || norms(direction_).position > kShorten * trust_mm) {
+    report.merit_mj = linearise(problem);
+    const bool balanced = small_residual(problem, spec, report);
+    if (!std::isfinite(report.force_residual_n)) return end(Termination::left_domain);
+    bool converged = settled && balanced && problem.lag_error() <= spec.lag_tolerance;
+    if (!converged) {
+      if (!find_direction(problem, trust_mm, spec, report)) return end(Termination::left_domain);
+      const Norms correction = norms(direction_);
+      if (!std::isfinite(correction.position)) return end(Termination::left_domain);
+      report.correction_mm = correction.position;
+      report.correction_rad = correction.turn;
+      converged =
+          lambda_ == 0.0 && balanced && within(correction) && problem.lag_error() <= spec.lag_tolerance;
+    }
+    if (converged) {
+      const Validity validity = problem.check();
+      if (validity == Validity::holds) return end(Termination::converged);
+      if (validity == Validity::hopeless) return end(Termination::left_domain);
+      settled = calm = false;
+      unchecked_mm = HUGE_VAL;
+      since_change = -1;
+      trust_mm = spec.max_step_mm;
+      continue;
+    }
+    if (since_change >= spec.max_iterations) return end(Termination::iteration_limit);
+    double alpha = search_line(problem, spec, trust_mm, report);
+    // The model misled: shorter steps, bent towards the gradient.
+    for (int attempt = 0; alpha == 0.0 && attempt < 4; ++attempt) {
+      const double weight = std::max(10.0 * lambda_, 100.0 * kFirstWeight);
+      lambda_ = weight;
       ++report.regularised_iterations;
-      if (!restrict_direction(problem, trust_mm, spec, report)) {
-        report.termination = Termination::left_domain;
-        return report;
-      }
+      if (solve_model(problem, weight, true, report)) alpha = search_line(problem, spec, trust_mm, report);
     }
-
-    const Norms correction = norms(direction_);
-    const Norms residual = norms(gradient_);
-    const ForceScales scale = problem.scales();
-    report.correction_mm = correction.position;
-    report.correction_rad = correction.turn;
-    report.force_residual_n = residual.position;
-    report.moment_residual_n_mm = residual.turn;
-    report.force_scale_n = scale.force_n;
-    report.moment_scale_n_mm = scale.moment_n_mm;
-    if (!std::isfinite(correction.position) || !std::isfinite(residual.position)) {
-      report.termination = Termination::left_domain;
-      return report;
-    }
-    const bool full = definite && correction.position <= kShorten * trust_mm;
-    const bool small_residual =
-        residual.position <= spec.force_tolerance * scale.force_n + scale.rounding_n + spec.force_floor_n &&
-        residual.turn <= spec.force_tolerance * scale.moment_n_mm + spec.moment_floor_n_mm;
-    if (full && small_residual && correction.position <= spec.correction_tolerance_mm &&
-        correction.turn <= spec.correction_tolerance_rad && problem.lag_error() <= spec.lag_tolerance) {
-      report.termination = Termination::converged;
-      return report;
-    }
-    if (report.iterations >= spec.max_iterations) {
-      report.termination = Termination::iteration_limit;
-      return report;
-    }
-    double alpha = slope() < 0.0 ? search_line(problem, spec, trust_mm, report.merit_mj, report) : 0.0;
-    if (alpha == 0.0) {
-      // The anticipated contacts misled: once more without.
-      anticipating_ = false;
-      hessian_.set_zero();
-      std::fill(gradient_.begin(), gradient_.end(), 0.0);
-      problem.linearise(hessian_, gradient_);
-      model_gradient_ = gradient_;
-      bool found = definite;
-      if (definite) {
-        factorise(0.0);
-        find_direction(problem, 0.0, report);
-      } else {
-        found = restrict_direction(problem, trust_mm, spec, report);
-      }
-      anticipating_ = true;
-      if (found) alpha = search_line(problem, spec, trust_mm, report.merit_mj, report);
-    }
-    if (alpha == 0.0) {
-      report.termination = Termination::stalled;
-      return report;
-    }
-    trust_mm = alpha < kPoorStep ? std::max(kSmallestTrust_mm, 2.0 * alpha * correction.position)
+    if (alpha == 0.0) return end(Termination::stalled);
+    trust_mm = alpha < kPoorStep ? std::max(kSmallestTrust_mm, 2.0 * alpha * report.correction_mm)
                                  : std::min(spec.max_step_mm, 4.0 * trust_mm);
-    if (!problem.inside_region()) {
-      report.termination = Termination::left_domain;
-      return report;
+    const bool whole = lambda_ == 0.0 && alpha == 1.0;
+    settled = whole && report.correction_mm <= spec.correction_tolerance_mm &&
+              report.correction_rad <= spec.correction_tolerance_rad;
+    calm = alpha * report.correction_mm <= kCalm_mm;
+    const bool outside = !problem.inside_region();
+    unchecked_mm += alpha * report.correction_mm;
+    if (outside || since_change == 0 ||
+        (whole && report.correction_mm <= spec.check_correction_mm && unchecked_mm > kUnchecked_mm)) {
+      const Validity validity = problem.check();
+      if (validity == Validity::hopeless) return end(Termination::left_domain);
+      unchecked_mm = validity == Validity::holds ? 0.0 : HUGE_VAL;
+      if (validity == Validity::changed) {
+        settled = calm = false;
+        since_change = -1;
+        trust_mm = spec.max_step_mm;
+      }
     }
   }
 }

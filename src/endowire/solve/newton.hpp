@@ -14,32 +14,61 @@ struct ForceScales {
   double rounding_n = 0.0;   ///< forces below this are rounding: stiffness · |x| · machine epsilon
 };
 
-/// What Newton needs of a mechanical problem: a base state, its derivatives, and a curve of trial states.
+/// Whether a problem still describes what it was set up for.
+enum class Validity {
+  holds,
+  changed,   ///< it did not, and has been set up anew around the base state
+  hopeless,  ///< it cannot be
+};
+
+/// What contacts contribute to a model at a motion.
+struct ContactPart {
+  double value_mj = 0.0;  ///< C(step) − C(0) − ∇C(0)ᵀstep
+  bool changed =
+      false;  ///< some contact opened or closed, stuck or slid, or stiffened, since the last evaluation
+};
+
+/// What Newton needs of a mechanical problem: a base state, a model around it, and a curve of trial states.
 ///
-/// Unknowns come in blocks of four, x, y, z [mm] and a turn [rad]; gradients are forces [N] and moments [N·mm].
-/// Some quantities (the normal forces that limit friction) are *lagged*: constant while the merit is minimised, renewed
-/// by `renew_lagged`.
+///   model(d) = gᵀd + ½ dᵀ H d + C(d) − C(0) − ∇C(0)ᵀd,   g the whole gradient at the base state
+///
+/// H is the Hessian of everything smooth; C, convex, holds what opens and closes, sticks and slides: contacts. Unknowns come
+/// in blocks of four, x, y, z [mm] and a turn [rad]; gradients are forces [N] and moments [N·mm]. Some quantities (the
+/// normal forces that limit friction) are *lagged*: constant while the merit is minimised, renewed by `renew_lagged`.
 class Problem {
  public:
   virtual ~Problem() = default;
   [[nodiscard]] virtual int unknowns() const = 0;
-  /// Merit, gradient and Hessian at the base state; fixed unknowns have zero gradient and an identity row.
+  /// Merit and its gradient at the base state, and the Hessian of all but the contacts; fixed unknowns have zero gradient
+  /// and an identity row.
   virtual double linearise(math::BandMatrix& hessian, std::vector<double>& gradient) = 0;
-  /// Changes the quadratic model, given where it leads: adds what the derivatives at the base state do not see, such as a wall
-  /// that `direction` would run into. Returns false when nothing is to be added; then the step is taken.
-  virtual bool anticipate(const std::vector<double>& direction, math::BandMatrix& hessian,
-                          std::vector<double>& gradient) = 0;
+  /// Adds ∇C(step) − ∇C(0) and the Hessian of C there. The default has no contacts.
+  /// @param assumed  contacts count as closed where the last model left them so
+  virtual ContactPart add_contacts(const std::vector<double>& step, bool assumed, math::BandMatrix& hessian,
+                                   std::vector<double>& gradient) {
+    static_cast<void>(step), static_cast<void>(assumed), static_cast<void>(hessian),
+        static_cast<void>(gradient);
+    return {};
+  }
+  /// After a trial of the whole `step` failed: the contacts of the model take the gaps that they truly had there, so that the
+  /// model minimised anew follows curved walls to second order. False when there is nothing to correct.
+  virtual bool correct_contacts(const std::vector<double>& step) {
+    static_cast<void>(step);
+    return false;
+  }
   /// Merit at the trial state base ⊕ α·direction; +infinity when there is none.
   virtual double try_step(const std::vector<double>& direction, double alpha) = 0;
   /// The last trial state becomes the base state.
   virtual void accept_step() = 0;
   [[nodiscard]] virtual ForceScales scales() const = 0;
   /// How far the lagged quantities are from their values at the base state, relative; 0 when there are none.
-  [[nodiscard]] virtual double lag_error() const = 0;
+  [[nodiscard]] virtual double lag_error() const { return 0.0; }
   /// Renews the lagged quantities from the base state; the merit changes.
-  virtual void renew_lagged() = 0;
+  virtual void renew_lagged() {}
   /// False when the base state has left the region in which the problem was set up.
-  [[nodiscard]] virtual bool inside_region() const = 0;
+  [[nodiscard]] virtual bool inside_region() const { return true; }
+  /// Asked at states that are nearly settled, settled, or outside the region.
+  virtual Validity check() { return inside_region() ? Validity::holds : Validity::hopeless; }
 };
 
 /// Parameters of minimise(). None shapes the result: they say when to stop and how to get there.
@@ -52,30 +81,32 @@ struct NewtonSpec {
   double lag_tolerance = 2e-3;  ///< relative change of the lagged quantities at the end
   double max_step_mm = 2.0;     ///< longest motion of a joint in one iteration
   double max_turn_rad = 0.5;
-  double proximal_scale = 1.0;  ///< scales the first proximal weight
-  int max_iterations = 60;
+  double check_correction_mm = 0.0;  ///< corrections from which on validity is asked before polishing
+  double proximal_scale = 1.0;       ///< scales the first proximal weight
+  int max_iterations = 60;           ///< since the last change of the problem
 };
 
-/// Minimises the merit of `problem` from its base state by Newton's method with exact Hessians.
+/// Minimises the merit of `problem` from its base state by Newton's method.
 ///
-///   solve (H + λ W) d = −g,  state ← state ⊕ α d
+///   d = argmin model(d) + ½ λ |d|²,  state ← state ⊕ α d
 ///
-/// λ      0 while H is positive definite (inertia of the band LDLᵀ) and d within the trust radius; else the first of a
-///        rising series that makes it so. It is the Hessian of a proximal term about the *current* iterate: it guides the
-///        path through a snap and has no force of its own at the end, nothing to iterate away, no lag.
-/// W      1 N/mm for positions and 1 N·mm for turns.
-/// Model  before a step is taken, contacts that it would close are added to the model and it is solved again: an active
-///        set within the iteration. Without it a line search stops at the first wall.
+/// Model  minimised by Newton's method of its own, in rounds that cost a factorisation each, not an assembly, until no contact
+///        changes; a round that would raise it is halved.
+/// λ      0 while H and the contacts are positive definite (inertia of the band LDLᵀ) and d within the trust radius; else the
+///        first of a rising series that makes it so. It is the Hessian of a proximal term about the *current* iterate: it guides
+///        the path through a snap and has no force of its own at the end, nothing to iterate away, no lag.
 /// Trust  max_step_mm at first; twice the step taken after a line search that went badly, larger again after good ones.
-/// α      from min(1, turn limit), halved until the merit has decreased by 1e-4 of the linear prediction (Armijo); doubled while the
-///        merit falls along it as a straight line.
-/// Stops  converged when, with λ = 0:  |d| ≤ correction tolerances,  |g| ≤ force_tolerance · scale + rounding + floor  for
-///        forces and moments, and the lagged quantities are within lag_tolerance of their present values.
+/// Bends  a whole step that fails is corrected once for the curvature of the walls that it follows (second-order correction of
+///        sequential quadratic programming [Fletcher1982]).
+/// α      from min(1, turn limit), halved until the merit has decreased by 1e-4 of the linear prediction (Armijo).
+/// Stops  converged when the last correction, with λ = 0 and α = 1, was within its tolerances, and there
+///        |g| ≤ force_tolerance · scale + rounding + floor  for forces and moments, the lagged quantities are within
+///        lag_tolerance of their present values, and the problem holds.
 class Newton {
  public:
   void reserve(int unknowns);
   SolveReport minimise(Problem& problem, const NewtonSpec& spec);
-  /// Negative eigenvalues of the Hessian at the problem's base state.
+  /// Negative eigenvalues of the Hessian, contacts included, at the problem's base state.
   int inertia(Problem& problem);
 
  private:
@@ -83,21 +114,23 @@ class Newton {
     double position, turn;
   };
   [[nodiscard]] static Norms norms(const std::vector<double>& v);
-  int factorise(double lambda);
-  void find_direction(Problem& problem, double lambda, SolveReport& report);
-  bool restrict_direction(Problem& problem, double trust_mm, const NewtonSpec& spec, SolveReport& report);
+  void resize(int unknowns);
+  double linearise(Problem& problem);
+  ContactPart model_at_direction(Problem& problem, double lambda, bool assumed);
+  bool solve_round(double lambda, SolveReport& report);
+  bool solve_model(Problem& problem, double lambda, bool from_rest, SolveReport& report);
+  [[nodiscard]] static bool small_change(const Norms& change, const Norms& whole);
+  bool find_direction(Problem& problem, double trust_mm, const NewtonSpec& spec, SolveReport& report);
+  bool small_residual(const Problem& problem, const NewtonSpec& spec, SolveReport& report) const;
   /// Change of the merit per unit step, to first order.
   [[nodiscard]] double slope() const;
-  double extend_step(Problem& problem, const NewtonSpec& spec, double merit, double trial, double alpha,
-                     double descent, SolveReport& report);
   /// The step taken, 0 when none decreases the merit.
-  double search_line(Problem& problem, const NewtonSpec& spec, double trust_mm, double merit,
-                     SolveReport& report);
+  double search_line(Problem& problem, const NewtonSpec& spec, double trust_mm, SolveReport& report);
 
-  math::BandMatrix hessian_;
-  std::vector<double> gradient_, model_gradient_, direction_, shift_, empty_;
-  double last_weight_ = 0.0;
-  bool anticipating_ = true;
+  math::BandMatrix hessian_, matrix_;
+  std::vector<double> gradient_, model_gradient_, direction_, round_, product_, best_, kept_;
+  double lambda_ = 0.0;       ///< of the present direction
+  double last_weight_ = 0.0;  ///< of the last iteration that needed one
 };
 
 }  // namespace endowire::solve

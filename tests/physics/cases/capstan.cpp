@@ -69,7 +69,8 @@ double pull_n(double friction, double angle_rad) {
   constexpr double kStep_mm = kRod_mm / kSteps;
   double sum_n = 0.0;
   for (int step = 0; step < 2 * kSteps; ++step) {
-    problem.contact.place(chain.line, problem.material, problem.shape, rods - 1, tube, contact_spec, memory);
+    const contact::Wire seen{chain.line, problem.material, problem.shape};
+    problem.contact.place(seen, rods - 1, tube, contact_spec, memory);
     if (step > 0) {  // every joint moves along its own rod, away from the tip
       std::vector<Eigen::Vector3d> joints = problem.shape.joints_mm;
       for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
@@ -78,10 +79,10 @@ double pull_n(double friction, double angle_rad) {
       joints.back().x() -= kStep_mm;
       chain.move_joints(joints);
     }
-    problem.contact.detect(problem.shape, tube, contact_spec);
+    problem.contact.detect(seen, tube, contact_spec);
     const bool converged = newton.minimise(problem, spec).converged();
     if (!converged ||
-        problem.contact.verify(problem.shape, tube, contact_spec).gap_error_mm > contact_spec.gap_error_mm) {
+        problem.contact.verify(seen, tube, contact_spec).gap_error_mm > contact_spec.gap_error_mm) {
       return std::numeric_limits<double>::quiet_NaN();
     }
     problem.contact.remember(problem.shape, memory);

@@ -27,8 +27,9 @@ Checks curved_tip_at_a_wall() {
     contact::ContactSpec spec;
     spec.wall.modulus_mpa = kStiff_mpa;
     sim::ChainProblem& problem = chain.problem;
-    problem.contact.place(chain.line, problem.material, problem.shape, kTipRods - 1, wall, spec, {});
-    problem.contact.detect(problem.shape, wall, spec);
+    const contact::Wire seen{chain.line, problem.material, problem.shape};
+    problem.contact.place(seen, kTipRods - 1, wall, spec, {});
+    problem.contact.detect(seen, wall, spec);
     solve::Newton newton;
     const double failed = nan_unless_converged(newton.minimise(problem, statics_spec()));
     double force_n = failed;

@@ -4,6 +4,12 @@
 //
 // The wire costs ½EI/R² of energy per length that enters the bend: that is the hand's force. At the start of the bend the balance of
 // forces along the wire has the jump ½EIκ², so inside it carries twice as much.
+//
+// The hand's force ripples as joints enter the bend. Held to the centreline, rods of length l that have moved on by u into it store
+//
+//   E(u) = (EIκ²l/2) Σ (φ_j/κl)²,  dE/du = (EIκ²/2)(u³ + 2(1 − u) − (1 − u)³),  u in rods: between 0.91 and 1.09 of the mean
+//
+// whatever l is. Clearance smooths that away once it is large against the sagitta κl²/8 of a rod: 1.6 µm for rods of 0.5 mm here.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -89,7 +95,7 @@ Push push(double clearance_mm, double rod_mm, double wall_mpa) {
 
 Checks insertion_into_a_bend() {
   constexpr double kStiff_mpa = 1000.0;
-  constexpr double kRod_mm = 1.0;
+  constexpr double kRod_mm = 0.5;
   constexpr double kTight_mm = 0.005;
   const double hand_n = kRigidity_n_mm2 / (2.0 * kBendRadius_mm * kBendRadius_mm);
   Checks checks;
@@ -98,7 +104,7 @@ Checks insertion_into_a_bend() {
                     1e3 * tight.hand_n, 1e-2, ErrorKind::relative, "Bigoni2015"});
   checks.push_back({"V11", "mean compression in the bend [mN]", "EI/R²", 2e3 * hand_n,
                     1e3 * tight.compression_n, 1e-2, ErrorKind::relative, "Bigoni2015"});
-  checks.push_back({"V11", "ripple of the hand force, rods of 1 mm [%]", "0", 0.0, 1e2 * tight.hand_ripple,
+  checks.push_back({"V11", "ripple of the hand force, rods of 0.5 mm [%]", "0", 0.0, 1e2 * tight.hand_ripple,
                     2.0, ErrorKind::absolute, "Bigoni2015"});
   // A loose tube: the rise is known to the whole percent only.
   for (const auto& [clearance_mm, percent] : {std::pair{0.25, 3.0}, {1.0, 12.0}}) {

@@ -11,9 +11,6 @@ namespace {
 constexpr double kStiffness = 2.0;  // N/mm
 constexpr double kCap = 0.15;       // mm
 
-/// Depths at which the law changes its formula: entry, end of the onset, begin of the tangent.
-const double kBorders[] = {0.0, kWallOnset_mm, 0.9 * kCap + 0.5 * kWallOnset_mm};
-
 // Breaks when one of the three is changed without the others: Newton then converges slowly or to a wrong place.
 TEST(WallResponse, ForceAndStiffnessAreTheDerivativesOfTheEnergy) {
   constexpr double h = 1e-7;
@@ -32,19 +29,28 @@ TEST(WallResponse, ForceAndStiffnessAreTheDerivativesOfTheEnergy) {
   }
 }
 
-// Energy, force and Hessian are continuous where the formula changes. Breaks with a jump of the stiffness: Newton
-// then cycles between the two sides.
-TEST(WallResponse, IsContinuousToTheSecondDerivative) {
+// Energy and force are continuous where the formula changes, the stiffness where the tangent begins. At the surface it jumps
+// from nothing to k, and nowhere else.
+TEST(WallResponse, IsContinuousWhereItsFormulaChanges) {
   constexpr double h = 1e-9;
-  for (const double border : kBorders) {
+  for (const double border : {0.0, 0.9 * kCap}) {
     const WallResponse below = wall_response(kStiffness, kCap, border - h);
     const WallResponse above = wall_response(kStiffness, kCap, border + h);
     EXPECT_NEAR(above.energy_mj, below.energy_mj, 1e-7) << border;
     EXPECT_NEAR(above.force_n, below.force_n, 1e-6) << border;
-    EXPECT_NEAR(above.stiffness_n_per_mm, below.stiffness_n_per_mm,
-                1e-4 * (kStiffness + above.stiffness_n_per_mm))
-        << border;
   }
+  EXPECT_NEAR(wall_response(kStiffness, kCap, h).stiffness_n_per_mm, kStiffness, 1e-6);
+  EXPECT_NEAR(wall_response(kStiffness, kCap, 0.9 * kCap - h).stiffness_n_per_mm,
+              wall_response(kStiffness, kCap, 0.9 * kCap + h).stiffness_n_per_mm, 1e-4);
+}
+
+// The depth of a force is where the wall pushes back with it, up to the end of the law.
+TEST(WallDepth, IsTheInverseOfTheForce) {
+  for (const double depth : {0.0, 1e-6, 0.01, 0.07, 0.13}) {
+    EXPECT_NEAR(wall_depth_mm(kStiffness, kCap, wall_response(kStiffness, kCap, depth).force_n), depth,
+                1e-12);
+  }
+  EXPECT_DOUBLE_EQ(wall_depth_mm(kStiffness, kCap, 1e6), 0.9 * kCap);
 }
 
 // Outside the wall there is nothing at all.
@@ -57,33 +63,23 @@ TEST(WallResponse, VanishesOutside) {
   }
 }
 
-// F = k s/(1 − s/c), s = δ − ε/2; from s = 0.9 c on its tangent of 100 k. Breaks when the wall no longer stiffens to
-// its cap: an instrument would be pushed through.
+// F = k δ/(1 − δ/c); from δ = 0.9 c on its tangent of 100 k. Breaks when the wall no longer stiffens to its cap: an
+// instrument would be pushed through.
 TEST(WallResponse, StiffensToItsCap) {
-  for (const double depth : {0.006, 0.02, 0.07, 0.13}) {
-    const double s = depth - 0.5 * kWallOnset_mm;
-    EXPECT_NEAR(wall_response(kStiffness, kCap, depth).force_n, kStiffness * s / (1.0 - s / kCap), 1e-12)
+  for (const double depth : {0.001, 0.02, 0.07, 0.13}) {
+    EXPECT_NEAR(wall_response(kStiffness, kCap, depth).force_n, kStiffness * depth / (1.0 - depth / kCap),
+                1e-12)
         << depth;
   }
   const double at_tangent = kStiffness * 0.9 * kCap / 0.1;
   const double slope = 100.0 * kStiffness;
-  for (const double s : {0.95 * kCap, kCap, 3.0 * kCap}) {
-    const WallResponse w = wall_response(kStiffness, kCap, s + 0.5 * kWallOnset_mm);
-    EXPECT_NEAR(w.force_n, at_tangent + slope * (s - 0.9 * kCap), 1e-10) << s;
-    EXPECT_NEAR(w.stiffness_n_per_mm, slope, 1e-10) << s;
-    EXPECT_NEAR(w.bounded_force_n, at_tangent, 1e-10) << s;
+  for (const double depth : {0.95 * kCap, kCap, 3.0 * kCap}) {
+    const WallResponse w = wall_response(kStiffness, kCap, depth);
+    EXPECT_NEAR(w.force_n, at_tangent + slope * (depth - 0.9 * kCap), 1e-10) << depth;
+    EXPECT_NEAR(w.stiffness_n_per_mm, slope, 1e-10) << depth;
   }
   // At the cap: 19 times the force of a linear wall.
-  EXPECT_NEAR(wall_response(kStiffness, kCap, kCap + 0.5 * kWallOnset_mm).force_n, 19.0 * kStiffness * kCap,
-              1e-10);
-}
-
-// Beyond the linear range the bounded force is the force itself.
-TEST(WallResponse, BoundedForceIsTheForceWithinTheLaw) {
-  for (double depth = 0.0005; depth < 0.9 * kCap; depth += 0.001) {
-    const WallResponse w = wall_response(kStiffness, kCap, depth);
-    EXPECT_DOUBLE_EQ(w.bounded_force_n, w.force_n) << depth;
-  }
+  EXPECT_NEAR(wall_response(kStiffness, kCap, kCap).force_n, 19.0 * kStiffness * kCap, 1e-10);
 }
 
 // k = 2 r E' (1/h + h/R²), by hand for one set of numbers, and its dependences.

@@ -32,7 +32,7 @@ class Predict : public testing::Test {
   rod::ChainShape predicted(double advance, double turn) {
     rod::ChainShape out = shape_;
     std::vector<Vector3d> scratch;
-    predict(material_, point_, direction_, inserted_ + advance, advance, turn, out, scratch);
+    follow_trace(material_, point_, direction_, {inserted_ + advance, advance, turn}, out, scratch);
     return out;
   }
 

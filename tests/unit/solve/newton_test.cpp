@@ -38,9 +38,6 @@ class QuarticChain : public Problem {
     }
     return energy(y);
   }
-  bool anticipate(const std::vector<double>&, math::BandMatrix&, std::vector<double>&) override {
-    return false;
-  }
   double try_step(const std::vector<double>& d, double alpha) override {
     trial = y;
     for (std::size_t i = 0; i < y.size(); ++i) trial[i] += alpha * d[i];
