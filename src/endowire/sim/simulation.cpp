@@ -29,8 +29,9 @@ constexpr double kMaxBias_rad = 0.15;
 constexpr double kSnap_mm = 1.5;
 /// Local walls hold this far around the place of detection; a state beyond is detected anew.
 constexpr double kRegion_mm = 0.8;
-/// Shapes kept of the path of one step, and how far the wire moves between two of them.
-constexpr std::size_t kMaxWaypoints = 64;
+/// Shapes kept of the path of one step, and how far the wire moves between two of them at first: when there are too many,
+/// every second one is dropped and the distance doubled.
+constexpr std::size_t kMaxWaypoints = 128;
 constexpr double kWaypoint_mm = 0.5;
 /// Spacing of the points at which such a shape is checked against the field.
 constexpr double kClearStep_mm = 0.5;
@@ -63,6 +64,7 @@ struct ShapeOnTheWay {
   std::size_t first;
   std::size_t joints;
   double inserted_mm;
+  int attempt;  ///< number of the sub-step, failed ones counted
 };
 
 }  // namespace
@@ -88,6 +90,7 @@ class Simulation::Impl {
   bool settle();
   solve::Validity check_walls();
   void keep_waypoint(double least_motion_mm);
+  void thin_waypoints();
   [[nodiscard]] bool lies_clear() const;
   void enter(double inserted_mm, double turn_rad);
   void adapt_sheath(double inserted_mm);
@@ -119,6 +122,8 @@ class Simulation::Impl {
   std::vector<Eigen::Vector3d> traced_;  ///< the trace of the present step, without drift
   std::vector<Eigen::Vector3d> predicted_;
   std::vector<Eigen::Vector3d> waypoint_joints_;
+  double waypoint_spacing_mm_ = kWaypoint_mm;
+  int attempts_ = 0;  ///< sub-steps of the present step
 };
 
 Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrument instrument, Access access,
@@ -157,7 +162,7 @@ Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrume
   newton_spec_.max_step_mm = kMaxStep_mm;
   newton_spec_.check_correction_mm = kCheck_mm;
   problem_.checker = [this] { return check_walls(); };
-  problem_.on_step = [this] { keep_waypoint(kWaypoint_mm); };
+  problem_.on_step = [this] { keep_waypoint(waypoint_spacing_mm_); };
 
   grid_ = uniform_grid(line_, solver.rod_length_mm, kMaxBias_rad);
   gravity_m_per_s2_ = spec_.gravity_m_per_s2.norm();
@@ -352,6 +357,8 @@ const StepReport& Simulation::Impl::step(const Command& command) {
   report_.events = std::move(events);
   waypoints_.clear();
   waypoint_joints_.clear();
+  waypoint_spacing_mm_ = kWaypoint_mm;
+  attempts_ = 0;
   report_.converged = true;
   const bool finite = std::isfinite(command.advance_mm) && std::isfinite(command.torque_rad);
   const double pieces =
@@ -381,15 +388,14 @@ const StepReport& Simulation::Impl::step(const Command& command) {
 
 /// One sub-step; halved and repeated when it fails. Afterwards the state is the last converged one.
 bool Simulation::Impl::advance(const Command& command, int split) {
-  const std::size_t waypoints = waypoints_.size();
-  const std::size_t waypoint_joints = waypoint_joints_.size();
+  const int attempt = ++attempts_;
   if (advance_once(command)) {
     finish(command);
     return true;
   }
   restore(state_);
-  waypoints_.erase(waypoints_.begin() + static_cast<std::ptrdiff_t>(waypoints), waypoints_.end());
-  waypoint_joints_.resize(waypoint_joints);
+  for (; !waypoints_.empty() && waypoints_.back().attempt == attempt; waypoints_.pop_back())
+    waypoint_joints_.resize(waypoints_.back().first);
   if (split == spec_.solver.max_splits) return false;
   ++report_.splits;
   const Command half{0.5 * command.advance_mm, 0.5 * command.torque_rad};
@@ -487,7 +493,7 @@ bool Simulation::Impl::lies_clear() const {
       const double w = static_cast<double>(k) / points;
       const Eigen::Vector3d x = (1.0 - w) * shape.joints_mm[at(i)] + w * shape.joints_mm[at(i + 1)];
       const double radius = line_.radius_mm(problem_.material.arc_mm[at(i)] + w * length);
-      if (field_->at(x).distance_mm < radius - 0.5 * spec_.wall.max_deflection_mm) return false;
+      if (field_->at(x).distance_mm < radius - spec_.wall.max_deflection_mm) return false;
     }
   }
   return true;
@@ -497,10 +503,7 @@ bool Simulation::Impl::lies_clear() const {
 /// command (0) always.
 void Simulation::Impl::keep_waypoint(double least_motion_mm) {
   const std::vector<Eigen::Vector3d>& joints = problem_.shape.joints_mm;
-  if (joints.empty() || waypoints_.size() == waypoints_.capacity() ||
-      waypoint_joints_.size() + joints.size() > waypoint_joints_.capacity()) {
-    return;
-  }
+  if (joints.empty()) return;
   const Eigen::Vector3d* last = predicted_.data();
   if (!waypoints_.empty() && waypoints_.back().joints == joints.size()) {
     last = waypoint_joints_.data() + waypoints_.back().first;
@@ -508,8 +511,25 @@ void Simulation::Impl::keep_waypoint(double least_motion_mm) {
   double moved = 0.0;
   for (std::size_t j = 0; j < joints.size(); ++j) moved = std::max(moved, (joints[j] - last[j]).norm());
   if (moved < least_motion_mm || (least_motion_mm > 0.0 && !lies_clear())) return;
-  waypoints_.push_back({waypoint_joints_.size(), joints.size(), problem_.feed.inserted_mm});
+  if (waypoints_.size() == kMaxWaypoints) thin_waypoints();
+  waypoints_.push_back({waypoint_joints_.size(), joints.size(), problem_.feed.inserted_mm, attempts_});
   waypoint_joints_.insert(waypoint_joints_.end(), joints.begin(), joints.end());
+}
+
+void Simulation::Impl::thin_waypoints() {
+  std::size_t kept = 0;
+  std::size_t end = 0;
+  for (std::size_t k = 0; k < waypoints_.size(); k += 2) {
+    ShapeOnTheWay shape = waypoints_[k];
+    const auto from = waypoint_joints_.begin() + static_cast<std::ptrdiff_t>(shape.first);
+    std::copy_n(from, shape.joints, waypoint_joints_.begin() + static_cast<std::ptrdiff_t>(end));
+    shape.first = end;
+    end += shape.joints;
+    waypoints_[kept++] = shape;
+  }
+  waypoints_.resize(kept);
+  waypoint_joints_.resize(end);
+  waypoint_spacing_mm_ *= 2.0;
 }
 
 void Simulation::Impl::waypoint(int index, Snapshot& out) const {
