@@ -126,7 +126,8 @@ void print_table(const io::SceneFile& scene, const io::PreparedField& prepared, 
       run.inserted_mm);
   row("rods", "{} to {}", s.least_rods, s.most_rods);
   row("contact samples", "mean {:.0f}, max {}", run.contact_samples / steps, s.most_contact_samples);
-  row("detections per step", "{:.3f}", s.detections / steps);
+  row("detections per step", "{:.3f}, {:.3f} without a snap", s.detections / steps,
+      s.calm_detections / std::max<double>(1.0, static_cast<double>(s.step_us.size())));
   row("Newton iterations", "mean {:.1f}, p99 {:.0f}, max {:.0f}",
       std::accumulate(newton.begin(), newton.end(), 0.0) / steps, io::percentile(newton, 0.99),
       io::percentile(newton, 1.0));

@@ -76,4 +76,33 @@ class TwinTubesField final : public vessel::Field {
   double radius_mm_, apart_mm_;
 };
 
+/// Lumen around a wedge of tissue whose edge lies on the y axis and points along +x: a carina.
+class CarinaField final : public vessel::Field {
+ public:
+  /// @param half_angle_rad  between the axis of the wedge and its faces
+  CarinaField(double half_angle_rad, double lumen_radius_mm)
+      : along_x_(-std::cos(half_angle_rad)),
+        along_z_(std::sin(half_angle_rad)),
+        radius_mm_(lumen_radius_mm) {}
+  [[nodiscard]] vessel::WallDistance at(const Eigen::Vector3d& p) const override {
+    const double side = p.z() < 0.0 ? -1.0 : 1.0;
+    const Eigen::Vector3d face(along_x_, 0.0, side * along_z_);
+    const Eigen::Vector3d normal(along_z_, 0.0, -side * along_x_);
+    if (face.dot(p) > 0.0) return {normal.dot(p), normal};
+    const Eigen::Vector3d from_edge(p.x(), 0.0, p.z());
+    const double distance = from_edge.norm();
+    if (distance < 1e-12) return {0.0, Eigen::Vector3d::UnitX()};
+    return {distance, from_edge / distance};
+  }
+  [[nodiscard]] double lumen_radius_mm(const Eigen::Vector3d& /*p*/) const override { return radius_mm_; }
+  [[nodiscard]] double tissue_to_next_lumen_mm(const Eigen::Vector3d& /*p*/) const override {
+    return std::numeric_limits<double>::infinity();
+  }
+  [[nodiscard]] int exit_at(const Eigen::Vector3d& /*p*/) const override { return 0; }
+  [[nodiscard]] double error_mm() const override { return 0.0; }
+
+ private:
+  double along_x_, along_z_, radius_mm_;  ///< of the faces, away from the edge
+};
+
 }  // namespace endowire::test

@@ -42,7 +42,18 @@ TEST_F(RealVessel, FromTheFemoralAccessToTheArch) {
 }
 
 TEST_F(RealVessel, ACurvedTipTurnsTenTimesAgainstTheWall) {
-  hold("femoral_to_neuro", femoral(), 60, 1.0, 360);
+  hold("femoral_to_neuro", femoral(), 450, 1.0, 360);
+}
+
+// A wire of which 370 mm are pushed into a vessel of 120 mm that is closed at its end folds, fills it, and slips in the hand.
+TEST_F(RealVessel, AWireIsPushedIntoADeadEnd) {
+  hold("aortoiliac", {{211.2, 106.8, 29.9}, {0.2, 0.97, -0.11}}, 370, 1.0, 0);
+  EXPECT_NEAR(run_.max_push_n, 2.0, 1e-6) << "the grip's limit";
+}
+
+// Ten millimetres of advance in one command.
+TEST_F(RealVessel, LongCommandsHold) {
+  hold("femoral_to_neuro", femoral(), 45, 10.0, 0);
 }
 
 }  // namespace

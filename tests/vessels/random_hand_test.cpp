@@ -1,9 +1,13 @@
-// A random hand in real vessels: every step converges, few are split, one detection a step, and the judge, which shares
+// A random hand in real vessels: every step converges, few are split, one detection a step unless it snaps, and the judge, which shares
 // nothing with our contact, finds no crossing.
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <initializer_list>
 #include <ostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "support/seeded_hand.hpp"
 #include "support/temporary_folder.hpp"
@@ -45,13 +49,33 @@ TEST_P(RandomHand, ConvergesSplitsRarelyDetectsOnceAndCrossesNoWall) {
   EXPECT_GT(run.most_inserted_mm, 50.0) << "the hand went nowhere";
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Vessels, RandomHand,
-    testing::Values(Entry{"femoral_to_neuro", 1, 620.0, 0, {{-30.0, 66.5, 6.5}, {-0.75, -0.65, 0.15}}},
-                    Entry{"femoral_to_neuro_fine", 1, 620.0, 3, {}},
-                    Entry{"carotid_bifurcation", 1, 130.0, 1, {}},
-                    Entry{"branching_phantom", 1, 380.0, 8, {}}),
-    [](const testing::TestParamInfo<Entry>& entry) { return std::string(entry.param.vessel); });
+Entry entry(const char* vessel, std::uint64_t seed) {
+  for (const Entry& known : std::initializer_list<Entry>{
+           {"femoral_to_neuro", seed, 620.0, 0, {{-30.0, 66.5, 6.5}, {-0.75, -0.65, 0.15}}},
+           {"femoral_to_neuro_fine", seed, 620.0, 3, {}},
+           {"aortoiliac", seed, 120.0, 0, {{211.2, 106.8, 29.9}, {0.2, 0.97, -0.11}}},
+           {"carotid_bifurcation", seed, 130.0, 1, {}},
+           {"branching_phantom", seed, 380.0, 8, {}}}) {
+    if (std::string(known.vessel) == vessel) return known;
+  }
+  throw std::invalid_argument(vessel);
+}
+
+std::vector<Entry> entries(std::uint64_t first_seed, std::uint64_t last_seed) {
+  std::vector<Entry> out;
+  for (const char* vessel : {"femoral_to_neuro", "femoral_to_neuro_fine", "aortoiliac", "carotid_bifurcation",
+                             "branching_phantom"}) {
+    for (std::uint64_t seed = first_seed; seed <= last_seed; ++seed) out.push_back(entry(vessel, seed));
+  }
+  return out;
+}
+
+std::string name_of(const testing::TestParamInfo<Entry>& entry) {
+  return std::string(entry.param.vessel) + "_" + std::to_string(entry.param.seed);
+}
+
+INSTANTIATE_TEST_SUITE_P(Vessels, RandomHand, testing::ValuesIn(entries(1, 1)), name_of);
+INSTANTIATE_TEST_SUITE_P(Long, RandomHand, testing::ValuesIn(entries(2, 12)), name_of);
 
 }  // namespace
 }  // namespace endowire

@@ -38,6 +38,8 @@ struct RunFigures {
   int recorded = 0;  ///< shapes outside the sheath, those on the way of a snap included
   int converged = 0, split = 0, snaps = 0;
   double detections = 0.0;
+  double calm_detections = 0.0;    ///< in commands without a snap,
+  int calm_substeps = 0;           ///< and their sub-steps
   std::vector<double> iterations;  ///< a value a step
   double most_inserted_mm = 0.0, max_deflection_mm = 0.0, max_push_n = 0.0;
   std::string events;         ///< kinds with their counts
@@ -61,7 +63,7 @@ using Hand = std::function<sim::Command(const sim::Simulation&)>;
 /// The judge's verdict over a recording: check_crossings, a program of its own.
 [[nodiscard]] nlohmann::json judge(const std::filesystem::path& series, const std::string& vessel_path);
 
-/// Every step converged, at most 2 % split, at most 1.05 detections a step, no crossing found by the judge.
+/// Every step converged, at most 2 % split, at most 1.05 detections a step without a snap, no crossing found by the judge.
 void expect_all_that_must_hold(const RunFigures& run);
 
 }  // namespace endowire::test

@@ -23,7 +23,8 @@ void scatter_gradient(int rod, double fraction, const Eigen::Vector4d& g, const 
 /// C at a motion.
 struct ModelPart {
   double energy_mj = 0.0;
-  bool changed = false;  ///< some contact is open or closed, sticks or slides, otherwise than last evaluated or assumed
+  bool changed =
+      false;  ///< some contact is open or closed, sticks or slides, otherwise than last evaluated or assumed
 };
 
 /// One sample with its walls and its friction, as the linear motion of its rod sees them.

@@ -240,9 +240,16 @@ int ContactSet::add_over_ridges(const Wire& wire, const vessel::Field& field, bo
     double deepest = least_dip_mm;
     double where = -1.0;
     Sample probe = a;
+    const auto depth_at = [&](double arc_mm) {
+      put_at(wire.line, wire.material, arc_mm, probe);
+      return probe.radius_mm - field.at(probe.position_mm(shape)).distance_mm;
+    };
+    // A wall that gives way under the samples on both sides gives way between them as well.
+    const double at_a = std::max(0.0, depth_at(a.arc_mm));
+    const double at_b = std::max(0.0, depth_at(b.arc_mm));
     for (int k = 1; k < points; ++k) {
-      put_at(wire.line, wire.material, a.arc_mm + gap * k / points, probe);
-      const double dip = probe.radius_mm - field.at(probe.position_mm(shape)).distance_mm;
+      const double share = static_cast<double>(k) / points;
+      const double dip = depth_at(a.arc_mm + gap * share) - (at_a + share * (at_b - at_a));
       if (dip <= deepest) continue;
       deepest = dip;
       where = probe.arc_mm;

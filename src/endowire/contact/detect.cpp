@@ -29,8 +29,8 @@ struct Profile {
   double curvature_per_mm = 0.0;       ///< > 0 concave; of the side that bends less towards the wire
   bool round = false;                  ///< whether the wall has the slopes of such circles on both sides
 
-  Profile(const vessel::Field& field, const Eigen::Vector3d& q, const Eigen::Vector3d& direction, double reach,
-          double height)
+  Profile(const vessel::Field& field, const Eigen::Vector3d& q, const Eigen::Vector3d& direction,
+          double reach, double height)
       : ahead(field.at(q + reach * direction)), behind(field.at(q - reach * direction)) {
     const double one = curvature_to(ahead.distance_mm, height, reach);
     const double other = curvature_to(behind.distance_mm, height, reach);
@@ -183,15 +183,16 @@ void find_local_walls(const vessel::Field& field, const ContactSpec& spec, const
     const Eigen::Vector3d normal = probe.gradient / norm;
     const Eigen::Vector3d first = math::any_normal(normal);
     // Over a ridge the plane would pass above the sample: no wall is nearer to it than the nearest one.
-    sample.wall[static_cast<std::size_t>(sample.walls++)] =
-        LocalWall{normal, first, normal.cross(first), std::max(probe.distance_mm - normal.dot(offset), height),
-                  0.0,    0.0};
+    sample.wall[static_cast<std::size_t>(sample.walls++)] = LocalWall{
+        normal, first, normal.cross(first), std::max(probe.distance_mm - normal.dot(offset), height),
+        0.0,    0.0};
   };
   const auto add_sides = [&](const Profile& profile, const Eigen::Vector3d& direction) {
     add(profile.ahead, reach * direction);
     add(profile.behind, -reach * direction);
     if (profile.round) return;
-    for (const double side : {0.4 * reach, -0.4 * reach}) add(field.at(q + side * direction), side * direction);
+    for (const double side : {0.4 * reach, -0.4 * reach})
+      add(field.at(q + side * direction), side * direction);
   };
   const Profile across(field, q, e1, reach, height);
   if (sample.at_crest) {  // along the wire it falls away on both sides
@@ -202,7 +203,8 @@ void find_local_walls(const vessel::Field& field, const ContactSpec& spec, const
   const Profile along(field, q, e2, reach, height);
   const Principal principal(across, along, e1, e2, height, reach);
   if (across.round && along.round) {
-    wall = LocalWall{n, principal.first, principal.second, height, principal.first_per_mm, principal.second_per_mm};
+    wall = LocalWall{n,      principal.first,        principal.second,
+                     height, principal.first_per_mm, principal.second_per_mm};
     add_sides(across, e1);
     add_sides(along, e2);
     return;

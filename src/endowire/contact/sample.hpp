@@ -34,7 +34,7 @@ struct Sample {
   Eigen::Vector3d detected_at_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d last_way_mm = Eigen::Vector3d::Zero();  ///< to there, since the detection before
   double clearance_mm = 0.0;                              ///< at detection, from the field
-  bool at_crest = false;      ///< the wire is nearer to the wall here than beside it: a line over an edge
+  bool at_crest = false;  ///< the wire is nearer to the wall here than beside it: a line over an edge
   Eigen::Vector3d crest_normal = Eigen::Vector3d::UnitX();
   double lumen_radius_mm = 0.0;
   double foundation_n_per_mm2 = 0.0;

@@ -57,6 +57,7 @@ void RunStatistics::add(double time_s, const sim::StepReport& report, double wal
   }
   if (report.splits > 0) ++split_steps;
   detections += report.detections;
+  if (!report.snapped) calm_detections += report.detections;
   verifications += static_cast<std::uint64_t>(std::max(0, report.verifications));
   least_rods = steps == 1 ? report.rods : std::min(least_rods, report.rods);
   most_rods = std::max(most_rods, report.rods);

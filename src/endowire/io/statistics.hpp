@@ -38,6 +38,7 @@ class RunStatistics {
   std::uint64_t converged_steps = 0;
   std::uint64_t split_steps = 0;
   double detections = 0.0;
+  double calm_detections = 0.0;  ///< those of steps without a snap
   std::uint64_t verifications = 0;
   int least_rods = 0;
   int most_rods = 0;

@@ -133,6 +133,7 @@ std::string summary_json(const SceneFile& scene, const VesselMesh& mesh, const v
       {"converged_steps", run.converged_steps},
       {"split_steps", run.split_steps},
       {"detections_per_step", finite(per_step(run.detections, run.steps))},
+      {"detections_per_step_without_snap", finite(per_step(run.calm_detections, run.step_us.size()))},
       {"verifications_per_step", finite(per_step(static_cast<double>(run.verifications), run.steps))},
       {"newton_iterations",
        {{"mean", finite(mean(run.newton_iterations))},

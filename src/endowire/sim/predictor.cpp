@@ -65,6 +65,11 @@ void follow_trace(const rod::ChainMaterial& material, const Eigen::Vector3d& she
   transport_frames(shape);
 }
 
+double predicted_slip_mm(const Drift& drift, double advance_mm) {
+  if (!(drift.advance_mm * advance_mm > 0.0)) return 0.0;
+  return advance_mm * std::clamp(drift.slip_mm / drift.advance_mm, 0.0, 1.0);
+}
+
 void follow_drift(const Drift& drift, double advance_mm, rod::ChainShape& shape,
                   std::vector<Eigen::Vector3d>& scratch) {
   constexpr double kMostOften = 2.0;  // further ahead than twice the last step its drift tells nothing

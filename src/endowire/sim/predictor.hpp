@@ -7,10 +7,13 @@
 
 namespace endowire::sim {
 
-/// What the equilibrium of a step differed from its trace by. A tip that slides along a wall differs alike in every step.
+/// What the equilibrium of a step differed from its trace by. A tip that slides along a wall differs alike in every step, and a
+/// wire that is stuck slips in the hand alike.
 struct Drift {
-  double advance_mm = 0.0;                 ///< of that step; 0 when it tells nothing
-  std::vector<Eigen::Vector3d> joints_mm;  ///< of each joint from the tip on
+  double advance_mm = 0.0;  ///< of the hand in that step; 0 when it tells nothing
+  double slip_mm = 0.0;     ///< of this the wire did not follow
+  std::vector<Eigen::Vector3d>
+      joints_mm;  ///< of each joint from the tip on, from where the trace leads with what it followed
 
   bool operator==(const Drift&) const = default;
 };
@@ -29,6 +32,10 @@ struct HandStep {
 void follow_trace(const rod::ChainMaterial& material, const Eigen::Vector3d& sheath_point,
                   const Eigen::Vector3d& sheath_direction, const HandStep& hand, rod::ChainShape& shape,
                   std::vector<Eigen::Vector3d>& trace);
+
+/// How much of an advance of the hand the wire will not follow, by the last step: in proportion, and none when that went the
+/// other way.
+[[nodiscard]] double predicted_slip_mm(const Drift& drift, double advance_mm);
 
 /// Moves the joints that are free as in the last step, in proportion to the advance and when it is of the same sense; rods keep
 /// their lengths.

@@ -120,6 +120,8 @@ class Simulation::Impl {
   std::vector<Eigen::Vector3d> trace_;
   Drift drift_;
   std::vector<Eigen::Vector3d> traced_;  ///< the trace of the present step, without drift
+  double hand_mm_ = 0.0;                 ///< advance of the hand in the present sub-step
+  double traced_inserted_mm_ = 0.0;
   std::vector<Eigen::Vector3d> predicted_;
   std::vector<Eigen::Vector3d> waypoint_joints_;
   double waypoint_spacing_mm_ = kWaypoint_mm;
@@ -209,6 +211,7 @@ void Simulation::Impl::save(State& out) const {
   out.spin_rad.assign(shape.spin_rad.begin(), shape.spin_rad.end());
   out.twist_rad.assign(shape.twist_rad.begin(), shape.twist_rad.end());
   out.drift.advance_mm = drift_.advance_mm;
+  out.drift.slip_mm = drift_.slip_mm;
   out.drift.joints_mm.assign(drift_.joints_mm.begin(), drift_.joints_mm.end());
   out.friction.arc_mm.assign(friction_.arc_mm.begin(), friction_.arc_mm.end());
   out.friction.anchor_mm.assign(friction_.anchor_mm.begin(), friction_.anchor_mm.end());
@@ -248,6 +251,7 @@ void Simulation::Impl::restore(const State& state) {
     prepare_material(state.inserted_mm);
   }
   drift_.advance_mm = state.drift.advance_mm;
+  drift_.slip_mm = state.drift.slip_mm;
   drift_.joints_mm.assign(state.drift.joints_mm.begin(), state.drift.joints_mm.end());
   friction_.arc_mm.assign(state.friction.arc_mm.begin(), state.friction.arc_mm.end());
   friction_.anchor_mm.assign(state.friction.anchor_mm.begin(), state.friction.anchor_mm.end());
@@ -405,9 +409,11 @@ bool Simulation::Impl::advance(const Command& command, int split) {
 bool Simulation::Impl::advance_once(const Command& command) {
   Feed& feed = problem_.feed;
   // The end of the wire stays outside: there is nothing left to push.
-  const double inserted =
-      std::min(feed.inserted_mm + command.advance_mm, line_.length_mm() - spec_.solver.rod_length_mm);
-  const double advance_mm = inserted - feed.inserted_mm;
+  const double most = line_.length_mm() - spec_.solver.rod_length_mm;
+  hand_mm_ = std::min(command.advance_mm, most - feed.inserted_mm);
+  const double slip = in_sheath() ? 0.0 : predicted_slip_mm(drift_, hand_mm_);
+  const double advance_mm = hand_mm_ - slip;
+  const double inserted = feed.inserted_mm + advance_mm;
   if (in_sheath()) {
     if (inserted < first_inside_mm()) {
       feed.inserted_mm = inserted;
@@ -417,6 +423,7 @@ bool Simulation::Impl::advance_once(const Command& command) {
     problem_.contact.clear();
     problem_.contact.place(wire(), problem_.shape.rods() - 1, *field_, contact_spec_, friction_);
     traced_.assign(problem_.shape.joints_mm.begin(), problem_.shape.joints_mm.end());
+    traced_inserted_mm_ = inserted;
   } else {
     if (inserted < grid_[1] + kLeave_mm) {  // back into the sheath
       problem_.shape.joints_mm.clear();
@@ -425,7 +432,7 @@ bool Simulation::Impl::advance_once(const Command& command) {
       problem_.shape.twist_rad.clear();
       problem_.contact.clear();
       friction_.clear();
-      drift_.advance_mm = 0.0;
+      drift_.advance_mm = drift_.slip_mm = 0.0;
       drift_.joints_mm.clear();
       feed.inserted_mm = inserted;
       feed.stretch_mm = feed.twist_rad = 0.0;
@@ -436,8 +443,9 @@ bool Simulation::Impl::advance_once(const Command& command) {
     follow_trace(problem_.material, access_.position_mm, access_.direction,
                  {inserted, advance_mm, command.torque_rad}, problem_.shape, trace_);
     traced_.assign(problem_.shape.joints_mm.begin(), problem_.shape.joints_mm.end());
-    follow_drift(drift_, advance_mm, problem_.shape, trace_);
-    feed.inserted_mm = inserted;
+    follow_drift(drift_, hand_mm_, problem_.shape, trace_);
+    feed.inserted_mm = traced_inserted_mm_ = inserted;
+    feed.stretch_mm += slip;
     problem_.material.arc_mm.back() = 2.0 * inserted - grid_[at(problem_.shape.rods() - 1)];
     rod::fill_material_from(line_, problem_.shape.rods() - 1, gravity_m_per_s2_,
                             spec_.blood_density_g_per_mm3, problem_.material);
@@ -558,10 +566,14 @@ void Simulation::Impl::finish(const Command& command) {
       report_.events.push_back({EventKind::snap, moved, shape.joints_mm[j]});
       break;
     }
-    drift_.advance_mm = report_.snapped ? 0.0 : command.advance_mm;
+    drift_.advance_mm = report_.snapped ? 0.0 : hand_mm_;
+    drift_.slip_mm = hand_mm_ - (feed.inserted_mm - state_.inserted_mm);
     drift_.joints_mm.resize(shape.joints_mm.size());
-    for (std::size_t j = 0; j < shape.joints_mm.size(); ++j)
-      drift_.joints_mm[j] = shape.joints_mm[j] - traced_[j];
+    const double beyond_trace_mm = feed.inserted_mm - traced_inserted_mm_;
+    for (std::size_t j = 0; j < shape.joints_mm.size(); ++j) {
+      const Eigen::Vector3d& along = shape.frames[std::min(j, shape.frames.size() - 1)].col(2);
+      drift_.joints_mm[j] = shape.joints_mm[j] - traced_[j] - beyond_trace_mm * along;
+    }
     problem_.contact.remember(shape, friction_);
     feed.stretch_mm = contact::friction_anchor(feed.push, {feed.stretch_mm, 0.0})[0];
     feed.twist_rad = contact::friction_anchor(feed.torque, {feed.twist_rad, 0.0})[0];

@@ -6,7 +6,8 @@ namespace endowire::sim {
 
 std::uint64_t State::hash() const {
   base::Hash h;
-  for (const double v : {inserted_mm, hand_turn_rad, grip_stretch_mm, grip_twist_rad, drift.advance_mm})
+  for (const double v :
+       {inserted_mm, hand_turn_rad, grip_stretch_mm, grip_twist_rad, drift.advance_mm, drift.slip_mm})
     h.add(v);
   h.add(steps);
   h.add(static_cast<std::uint64_t>(joints_mm.size()));

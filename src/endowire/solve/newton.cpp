@@ -112,7 +112,8 @@ bool Newton::solve_model(Problem& problem, double lambda, bool from_rest, SolveR
     const Norms whole = norms(direction_);
     if (!std::isfinite(change.position)) return true;
     if (round > 0 && small_change(change, whole)) return true;
-    if (round == 0 && !model.changed && change.position <= kModelFloor_mm && change.turn <= kModelFloor_mm) return true;
+    if (round == 0 && !model.changed && change.position <= kModelFloor_mm && change.turn <= kModelFloor_mm)
+      return true;
   }
   direction_ = best_;
   for (int round = 0; round < kDescendingRounds; ++round) {

@@ -222,7 +222,8 @@ TEST_F(PressedWire, CorrectedForcesAgreeWithTheFieldAfterADisplacement) {
           model = std::min(model, local_height_mm(s.wall[static_cast<std::size_t>(w)], u));
         const vessel::WallDistance exact = field.at(s.position_mm(there));
         const double gap = std::abs(model - exact.distance_mm);
-        if (std::min(model, exact.distance_mm) < s.radius_mm) found.worst_gap_mm = std::max(found.worst_gap_mm, gap);
+        if (std::min(model, exact.distance_mm) < s.radius_mm)
+          found.worst_gap_mm = std::max(found.worst_gap_mm, gap);
         const auto force_at = [&](double height) {
           return wall_response(s.stiffness_n_per_mm, s.cap_mm, s.radius_mm - height).force_n;
         };
@@ -233,9 +234,9 @@ TEST_F(PressedWire, CorrectedForcesAgreeWithTheFieldAfterADisplacement) {
         found.largest_change_n =
             std::max(found.largest_change_n, (asked - set_.normal_force_n(shape_, i)).norm());
         // What the allowed error of a gap makes of the force there.
-        const double stiffness =
-            wall_response(s.stiffness_n_per_mm, s.cap_mm, s.radius_mm - exact.distance_mm + spec_.gap_error_mm)
-                .stiffness_n_per_mm;
+        const double stiffness = wall_response(s.stiffness_n_per_mm, s.cap_mm,
+                                               s.radius_mm - exact.distance_mm + spec_.gap_error_mm)
+                                     .stiffness_n_per_mm;
         EXPECT_LE(difference, stiffness * spec_.gap_error_mm + 0.1 * asked.norm() + 1e-9) << i;
       }
     }

@@ -47,7 +47,8 @@ TEST(RunStatistics, CountsStepsSplitsFailuresAndSnapsApart) {
   EXPECT_EQ(run.steps, 4U);
   EXPECT_EQ(run.converged_steps, 2U);
   EXPECT_EQ(run.split_steps, 2U);
-  EXPECT_EQ(run.detections, 7U);
+  EXPECT_EQ(run.detections, 7.0);
+  EXPECT_EQ(run.calm_detections, 4.0);
   EXPECT_EQ(run.step_us.size(), 3U);
   ASSERT_EQ(run.snap_step_us.size(), 1U);
   EXPECT_EQ(run.snap_step_us[0], 900.0);
@@ -104,6 +105,7 @@ TEST_F(Summary, HoldsWhatTheRunWas) {
   EXPECT_EQ(json["steps"], 2);
   EXPECT_EQ(json["split_steps"], 1);
   EXPECT_EQ(json["detections_per_step"], 1.5);
+  EXPECT_EQ(json["detections_per_step_without_snap"], 1.5);
   EXPECT_EQ(json["newton_iterations"]["mean"], 4.5);
   EXPECT_EQ(json["newton_iterations"]["max"], 5.0);
   EXPECT_EQ(json["max_wall_deflection_mm"], 0.03);

@@ -117,5 +117,45 @@ TEST_F(Predict, TurnsOnlyTheRodInTheSheath) {
   }
 }
 
+// The drift of the last step is taken over in proportion to the advance, twice at most and never backwards; not into the sheath.
+TEST_F(Predict, TheDriftOfTheLastStepGoesOn) {
+  Drift drift;
+  drift.advance_mm = 0.5;
+  drift.joints_mm.assign(16, Vector3d::Zero());
+  for (int j = 0; j < 8; ++j) {
+    // Square to the rods: their lengths stay to first order.
+    const Vector3d e = shape_.frames[static_cast<std::size_t>(j)].col(2);
+    drift.joints_mm[static_cast<std::size_t>(j)] = 0.01 * (8 - j) * math::any_normal(e);
+  }
+  std::vector<Vector3d> scratch;
+  const auto largest_move = [&](double advance) {
+    rod::ChainShape out = shape_;
+    follow_drift(drift, advance, out, scratch);
+    double largest = 0.0;
+    for (std::size_t j = 0; j <= 15; ++j) {
+      largest = std::max(largest, (out.joints_mm[j] - shape_.joints_mm[j]).norm());
+      if (j < 14) {
+        EXPECT_NEAR((out.joints_mm[j] - out.joints_mm[j + 1]).norm(),
+                    (shape_.joints_mm[j] - shape_.joints_mm[j + 1]).norm(), 1e-12);
+      }
+      if (j >= 14) {
+        EXPECT_EQ(out.joints_mm[j], shape_.joints_mm[j]);
+      }
+      if (j < 15) {
+        EXPECT_LT(test::frame_error(out.frames[j]), 1e-12);
+      }
+    }
+    return largest;
+  };
+  const double once = largest_move(0.5);
+  EXPECT_NEAR(once, 0.08, 0.02);
+  EXPECT_NEAR(largest_move(0.25), 0.5 * once, 0.1 * once);
+  EXPECT_EQ(largest_move(1.0), largest_move(7.0));
+  EXPECT_EQ(largest_move(0.0), 0.0);
+  EXPECT_EQ(largest_move(-0.5), 0.0);
+  drift.advance_mm = 0.0;
+  EXPECT_EQ(largest_move(0.5), 0.0);
+}
+
 }  // namespace
 }  // namespace endowire::sim
