@@ -20,11 +20,12 @@ void FrictionMemory::assign(const FrictionMemory& other) {
   normal_n_per_mm.assign(other.normal_n_per_mm.begin(), other.normal_n_per_mm.end());
 }
 
-void FrictionMemory::recall(std::size_t& k, Sample& sample) const {
+void FrictionMemory::recall(std::size_t& hint, Sample& sample) const {
   const std::size_t n = arc_mm.size();
   sample.anchor_mm.setZero();
   sample.lagged_normal_n = 0.0;
   if (n == 0 || sample.arc_mm > arc_mm[n - 1]) return;
+  std::size_t& k = hint;
   while (k + 1 < n && arc_mm[k + 1] <= sample.arc_mm) ++k;
   if (sample.arc_mm <= arc_mm[k] || k + 1 == n) {
     sample.anchor_mm = anchor_mm[k];

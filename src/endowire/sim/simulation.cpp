@@ -10,6 +10,7 @@
 #include "endowire/sim/grid.hpp"
 #include "endowire/sim/measure.hpp"
 #include "endowire/sim/predictor.hpp"
+#include "endowire/sim/waypoints.hpp"
 
 namespace endowire::sim {
 
@@ -29,11 +30,7 @@ constexpr double kMaxBias_rad = 0.15;
 constexpr double kSnap_mm = 1.5;
 /// Local walls hold this far around the place of detection; a state beyond is detected anew.
 constexpr double kRegion_mm = 0.8;
-/// Shapes kept of the path of one step, and how far the wire moves between two of them at first: when there are too many,
-/// every second one is dropped and the distance doubled.
-constexpr std::size_t kMaxWaypoints = 128;
-constexpr double kWaypoint_mm = 0.5;
-/// Spacing of the points at which such a shape is checked against the field.
+/// Spacing of the points at which a shape on the way is checked against the field.
 constexpr double kClearStep_mm = 0.5;
 /// Corrections below which the walls are checked, before the solution is polished.
 constexpr double kCheck_mm = 0.05;
@@ -57,18 +54,6 @@ std::string show(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-namespace {
-
-/// Where in a flat list the joints of a shape lie that a step passed through.
-struct ShapeOnTheWay {
-  std::size_t first;
-  std::size_t joints;
-  double inserted_mm;
-  int attempt;  ///< number of the sub-step, failed ones counted
-};
-
-}  // namespace
-
 class Simulation::Impl {
  public:
   Impl(std::shared_ptr<const vessel::Field> field, rod::Instrument instrument, Access access,
@@ -82,15 +67,14 @@ class Simulation::Impl {
 
   State state_;  ///< the last converged state
   StepReport report_;
-  std::vector<ShapeOnTheWay> waypoints_;
+  Waypoints waypoints_;
 
  private:
   bool advance(const Command& command, int split);
   bool advance_once(const Command& command);
   bool settle();
   solve::Validity check_walls();
-  void keep_waypoint(double least_motion_mm);
-  void thin_waypoints();
+  void keep_waypoint();
   [[nodiscard]] bool lies_clear() const;
   void enter(double inserted_mm, double turn_rad);
   void adapt_sheath(double inserted_mm);
@@ -123,8 +107,6 @@ class Simulation::Impl {
   double hand_mm_ = 0.0;                 ///< advance of the hand in the present sub-step
   double traced_inserted_mm_ = 0.0;
   std::vector<Eigen::Vector3d> predicted_;
-  std::vector<Eigen::Vector3d> waypoint_joints_;
-  double waypoint_spacing_mm_ = kWaypoint_mm;
   int attempts_ = 0;  ///< sub-steps of the present step
 };
 
@@ -164,7 +146,7 @@ Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrume
   newton_spec_.max_step_mm = kMaxStep_mm;
   newton_spec_.check_correction_mm = kCheck_mm;
   problem_.checker = [this] { return check_walls(); };
-  problem_.on_step = [this] { keep_waypoint(waypoint_spacing_mm_); };
+  problem_.on_step = [this] { keep_waypoint(); };
 
   grid_ = uniform_grid(line_, solver.rod_length_mm, kMaxBias_rad);
   gravity_m_per_s2_ = spec_.gravity_m_per_s2.norm();
@@ -189,8 +171,7 @@ Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrume
   trace_.reserve(at(joints + 1));
   for (auto* list : {&predicted_, &traced_, &drift_.joints_mm, &state_.drift.joints_mm})
     list->reserve(at(joints + 1));
-  waypoints_.reserve(kMaxWaypoints);
-  waypoint_joints_.reserve(kMaxWaypoints * at(joints + 1));
+  waypoints_.reserve(at(joints + 1));
   report_.events.reserve(16);
   state_.joints_mm.reserve(at(joints + 1));
   state_.directors.reserve(at(joints));
@@ -360,8 +341,6 @@ const StepReport& Simulation::Impl::step(const Command& command) {
   report_ = StepReport{};
   report_.events = std::move(events);
   waypoints_.clear();
-  waypoint_joints_.clear();
-  waypoint_spacing_mm_ = kWaypoint_mm;
   attempts_ = 0;
   report_.converged = true;
   const bool finite = std::isfinite(command.advance_mm) && std::isfinite(command.torque_rad);
@@ -379,7 +358,9 @@ const StepReport& Simulation::Impl::step(const Command& command) {
   const double before_mm = state_.inserted_mm;
   const Command piece{command.advance_mm / pieces, command.torque_rad / pieces};
   for (int k = 0; k < static_cast<int>(pieces) && report_.converged; ++k) {
-    if (k > 0) keep_waypoint(0.0);
+    // The equilibrium between two pieces of a command.
+    if (k > 0 && !in_sheath())
+      waypoints_.keep(problem_.shape.joints_mm, problem_.feed.inserted_mm, attempts_);
     report_.converged = advance(piece, 0);
   }
   ++state_.steps;
@@ -398,8 +379,7 @@ bool Simulation::Impl::advance(const Command& command, int split) {
     return true;
   }
   restore(state_);
-  for (; !waypoints_.empty() && waypoints_.back().attempt == attempt; waypoints_.pop_back())
-    waypoint_joints_.resize(waypoints_.back().first);
+  waypoints_.forget(attempt);
   if (split == spec_.solver.max_splits) return false;
   ++report_.splits;
   const Command half{0.5 * command.advance_mm, 0.5 * command.torque_rad};
@@ -507,46 +487,24 @@ bool Simulation::Impl::lies_clear() const {
   return true;
 }
 
-/// Keeps the present shape if the wire has moved since the last one kept; an equilibrium between two pieces of a
-/// command (0) always.
-void Simulation::Impl::keep_waypoint(double least_motion_mm) {
+/// Keeps the present shape, on its way to equilibrium, if the wire has moved since the last one kept and lies clear.
+void Simulation::Impl::keep_waypoint() {
   const std::vector<Eigen::Vector3d>& joints = problem_.shape.joints_mm;
-  if (joints.empty()) return;
-  const Eigen::Vector3d* last = predicted_.data();
-  if (!waypoints_.empty() && waypoints_.back().joints == joints.size()) {
-    last = waypoint_joints_.data() + waypoints_.back().first;
-  }
+  const Eigen::Vector3d* last = waypoints_.last_mm(joints.size());
+  if (last == nullptr) last = predicted_.data();
   double moved = 0.0;
   for (std::size_t j = 0; j < joints.size(); ++j) moved = std::max(moved, (joints[j] - last[j]).norm());
-  if (moved < least_motion_mm || (least_motion_mm > 0.0 && !lies_clear())) return;
-  if (waypoints_.size() == kMaxWaypoints) thin_waypoints();
-  waypoints_.push_back({waypoint_joints_.size(), joints.size(), problem_.feed.inserted_mm, attempts_});
-  waypoint_joints_.insert(waypoint_joints_.end(), joints.begin(), joints.end());
-}
-
-void Simulation::Impl::thin_waypoints() {
-  std::size_t kept = 0;
-  std::size_t end = 0;
-  for (std::size_t k = 0; k < waypoints_.size(); k += 2) {
-    ShapeOnTheWay shape = waypoints_[k];
-    const auto from = waypoint_joints_.begin() + static_cast<std::ptrdiff_t>(shape.first);
-    std::copy_n(from, shape.joints, waypoint_joints_.begin() + static_cast<std::ptrdiff_t>(end));
-    shape.first = end;
-    end += shape.joints;
-    waypoints_[kept++] = shape;
-  }
-  waypoints_.resize(kept);
-  waypoint_joints_.resize(end);
-  waypoint_spacing_mm_ *= 2.0;
+  if (waypoints_.far_enough(moved) && lies_clear())
+    waypoints_.keep(joints, problem_.feed.inserted_mm, attempts_);
 }
 
 void Simulation::Impl::waypoint(int index, Snapshot& out) const {
-  const ShapeOnTheWay& shape = waypoints_.at(static_cast<std::size_t>(index));
+  const Waypoints::Shape& shape = waypoints_.shape(index);
   out = Snapshot{};
   out.inserted_length_mm = shape.inserted_mm;
   for (std::size_t j = 0; j < shape.joints; ++j) {
     SnapshotPoint point;
-    point.position_mm = waypoint_joints_[shape.first + j];
+    point.position_mm = waypoints_.joints_mm(shape)[j];
     point.arc_mm = j + 1 < shape.joints ? grid_[j] : 2.0 * shape.inserted_mm - grid_[j - 1];
     point.radius_mm = line_.radius_mm(point.arc_mm);
     out.points.push_back(point);
@@ -640,7 +598,7 @@ void Simulation::snapshot(Snapshot& out) const {
   impl_->snapshot(out);
 }
 int Simulation::waypoints() const {
-  return static_cast<int>(impl_->waypoints_.size());
+  return impl_->waypoints_.size();
 }
 void Simulation::waypoint(int index, Snapshot& out) const {
   impl_->waypoint(index, out);
