@@ -1,95 +1,18 @@
-#include <bit>
 #include <cmath>
-#include <cstring>
-#include <type_traits>
 
-#include "endowire/base/error.hpp"
-#include "endowire/vessel/hash.hpp"
 #include "endowire/vessel/mesh_field.hpp"
+#include "endowire/vessel/storage.hpp"
 
 namespace endowire::vessel {
 namespace {
 
-using base::InputError;
-
-static_assert(std::endian::native == std::endian::little, "prepared fields are stored little-endian");
-
-constexpr std::uint64_t magic = 0x444c464552495745ULL;  // "EWIREFLD"
-constexpr std::uint64_t format_version = 1;
-constexpr std::size_t header_words = 5;  // magic, version, key, bytes of payload, checksum of payload
+constexpr StorageKind prepared_field{0x444c464552495745ULL, 1, "prepared field"};  // "EWIREFLD"
 constexpr std::int32_t max_levels = 20;
-
-class Writer {
- public:
-  template <typename T>
-  void value(const T& v) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    const auto* bytes = reinterpret_cast<const std::byte*>(&v);
-    out_.insert(out_.end(), bytes, bytes + sizeof(T));
-  }
-  template <typename T>
-  void values(const std::vector<T>& v) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    value(static_cast<std::uint64_t>(v.size()));
-    const auto* bytes = reinterpret_cast<const std::byte*>(v.data());
-    out_.insert(out_.end(), bytes, bytes + v.size() * sizeof(T));
-  }
-  void vector(const Eigen::Vector3d& v) {
-    for (int k = 0; k < 3; ++k) value(v[k]);
-  }
-  std::vector<std::byte> out_;
-};
-
-class Reader {
- public:
-  Reader(std::span<const std::byte> bytes, std::string label) : bytes_(bytes), label_(std::move(label)) {}
-  template <typename T>
-  T value() {
-    T v{};
-    take(&v, sizeof(T));
-    return v;
-  }
-  template <typename T>
-  std::vector<T> values() {
-    const auto count = value<std::uint64_t>();
-    if (count > (bytes_.size() - at_) / sizeof(T)) fail("an array is longer than the file");
-    std::vector<T> v(static_cast<std::size_t>(count));
-    if (!v.empty()) take(v.data(), v.size() * sizeof(T));
-    return v;
-  }
-  Eigen::Vector3d vector() {
-    Eigen::Vector3d v;
-    for (int k = 0; k < 3; ++k) v[k] = value<double>();
-    return v;
-  }
-  [[nodiscard]] bool at_end() const { return at_ == bytes_.size(); }
-  [[noreturn]] void fail(const std::string& why) const {
-    throw InputError(label_ + ": prepared field is unusable: " + why + "; must be written by this version");
-  }
-
- private:
-  void take(void* to, std::size_t size) {
-    if (size > bytes_.size() - at_) fail("it ends early");
-    std::memcpy(to, bytes_.data() + at_, size);
-    at_ += size;
-  }
-  std::span<const std::byte> bytes_;
-  std::string label_;
-  std::size_t at_ = 0;
-};
-
-std::uint64_t checksum(std::span<const std::byte> bytes) {
-  ContentHash hash;
-  hash.add_bytes(bytes.data(), bytes.size());
-  return hash.value();
-}
 
 }  // namespace
 
 std::vector<std::byte> MeshField::serialise() const {
-  Writer w;
-  w.out_.reserve(facts_.bytes + 4096);
-  for (std::uint64_t word : {magic, format_version, key_, std::uint64_t{0}, std::uint64_t{0}}) w.value(word);
+  StorageWriter w(prepared_field, key_, facts_.bytes + 4096);
   w.vector(origin_mm_);
   w.value(root_mm_);
   w.value(band_mm_);
@@ -113,26 +36,14 @@ std::vector<std::byte> MeshField::serialise() const {
   w.value(static_cast<std::uint64_t>(facts_.error_points));
   w.value(static_cast<std::uint64_t>(facts_.refinement_complete ? 1 : 0));
   w.value(facts_.lumen_diameter_percentiles_mm);
-  const std::span<const std::byte> payload = std::span(w.out_).subspan(8 * header_words);
-  const std::uint64_t tail[2] = {payload.size(), checksum(payload)};
-  std::memcpy(w.out_.data() + 24, tail, sizeof tail);
-  return std::move(w.out_);
+  return w.seal();
 }
 
 MeshField MeshField::deserialise(std::span<const std::byte> bytes, std::uint64_t expected_key,
                                  const std::string& label) {
-  Reader header(bytes.first(std::min(bytes.size(), 8 * header_words)), label);
-  if (header.value<std::uint64_t>() != magic) header.fail("it does not begin as one");
-  if (header.value<std::uint64_t>() != format_version) header.fail("its format is of another version");
-  const auto key = header.value<std::uint64_t>();
-  if (key != expected_key) header.fail("it belongs to another mesh or other parameters");
-  const std::span<const std::byte> payload = bytes.subspan(8 * header_words);
-  if (header.value<std::uint64_t>() != payload.size()) header.fail("its length is wrong");
-  if (header.value<std::uint64_t>() != checksum(payload)) header.fail("its checksum is wrong");
-
-  Reader r(payload, label);
+  StorageReader r(bytes, prepared_field, expected_key, label);
   MeshField f;
-  f.key_ = key;
+  f.key_ = expected_key;
   f.origin_mm_ = r.vector();
   f.root_mm_ = r.value<double>();
   f.band_mm_ = r.value<double>();
@@ -163,16 +74,15 @@ MeshField MeshField::deserialise(std::span<const std::byte> bytes, std::uint64_t
   f.facts_.error_points = static_cast<std::size_t>(r.value<std::uint64_t>());
   f.facts_.refinement_complete = r.value<std::uint64_t>() != 0;
   f.facts_.lumen_diameter_percentiles_mm = r.value<std::array<double, 5>>();
-  if (!r.at_end()) r.fail("it is too long");
+  r.expect_end();
   f.validate(label);
   return f;
 }
 
 /// Every reference ends in something that exists, after at most levels_ steps; every number is finite.
 void MeshField::validate(const std::string& label) const {
-  const Reader r({}, label);
   const auto check = [&](bool holds, const char* why) {
-    if (!holds) r.fail(why);
+    if (!holds) StorageReader::fail(prepared_field, label, why);
   };
   check(origin_mm_.allFinite() && std::isfinite(root_mm_) && root_mm_ > 0.0, "its box is not finite");
   check(std::isfinite(band_mm_) && band_mm_ > 0.0, "its band is not positive");
