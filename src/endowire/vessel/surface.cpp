@@ -69,6 +69,22 @@ ExactSurface::Sample ExactSurface::at(const Vector3d& point, double within_mm) c
   return {sign(point, nearest) * nearest.distance_mm, nearest.point_mm, nearest.triangle};
 }
 
+ExactSurface::Sample ExactSurface::at(const Vector3d& point, std::span<const std::int32_t> triangles) const {
+  NearestPoint best;
+  double best2 = std::numeric_limits<double>::infinity();
+  for (std::int32_t triangle : triangles) {
+    const auto t = static_cast<std::size_t>(triangle);
+    Vector3d q;
+    std::uint8_t feature = 0;
+    const double d2 =
+        nearest_on_triangle(point, mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), q, feature);
+    if (d2 > best2 || (d2 == best2 && triangle >= best.triangle)) continue;
+    best2 = d2;
+    best = {std::sqrt(d2), q, triangle, feature};
+  }
+  return {sign(point, best) * best.distance_mm, best.point_mm, best.triangle};
+}
+
 void ExactSurface::pack(const Vector3d& centre_mm, const std::vector<TriangleBvh::Candidate>& found,
                         Candidates& out) const {
   out.centre_mm = centre_mm;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <span>
 #include <vector>
 
 #include "endowire/vessel/bvh.hpp"
@@ -27,6 +28,9 @@ class ExactSurface {
   /// @param within_mm  a distance within which the surface is known to come: makes the search shorter
   [[nodiscard]] Sample at(const Eigen::Vector3d& point_mm,
                           double within_mm = std::numeric_limits<double>::infinity()) const;
+
+  /// The same by trying some triangles only: right when the nearest is among them.
+  [[nodiscard]] Sample at(const Eigen::Vector3d& point_mm, std::span<const std::int32_t> triangles) const;
 
   /// Triangles near a ball, laid out for many queries inside it.
   struct Candidates {
