@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "endowire/io/centreline_file.hpp"
 #include "endowire/io/summary.hpp"
 #include "endowire/io/vessel_file.hpp"
 #include "progress.hpp"
@@ -17,6 +18,7 @@ struct Options {
   std::string vessel;
   std::string unit = "mm";
   std::string cache = io::default_cache_folder().string();
+  std::string centreline;  ///< file to write; empty: none
   bool json = false;
 };
 
@@ -70,17 +72,55 @@ void print_facts(const io::VesselMesh& mesh, const vessel::MeshField& field) {
       facts.error_p99_mm, facts.error_max_mm);
 }
 
+/// How a branch ends: at an end of the vessel, a cut, or a bifurcation.
+std::string end_of(const vessel::CentrelineTree& tree, std::int32_t branch) {
+  std::string text;
+  for (const vessel::CentrelineEnd& end : tree.ends()) {
+    if (end.branch != branch) continue;
+    if (!text.empty()) text += ", ";
+    text += end.root ? fmt::format("root at {}", io::name_of(end)) : io::name_of(end);
+    if (end.rejoins >= 0)
+      text += fmt::format(", rejoins {}", tree.branches()[static_cast<std::size_t>(end.rejoins)].name);
+  }
+  return text;
+}
+
+void print_branches(const vessel::CentrelineTree& tree) {
+  if (tree.branches().empty()) {
+    fmt::print("  {:<22} none: no lumen with an end was found\n", "branches");
+    return;
+  }
+  fmt::print("  {:<22} {}, root first; radius of the lumen from ostium to cap\n", "branches",
+             tree.branches().size());
+  fmt::print("    {:<16} {:<16} {:>9} {:>19}  {}\n", "name", "parent", "length/mm",
+             "radius/mm least mean most", "ends at");
+  for (std::size_t b = 0; b < tree.branches().size(); ++b) {
+    const vessel::CentrelineBranch& branch = tree.branches()[b];
+    const std::string parent =
+        branch.parent < 0 ? "-" : tree.branches()[static_cast<std::size_t>(branch.parent)].name;
+    fmt::print("    {:<16} {:<16} {:>9.1f} {:>11.2f} {:>6.2f} {:>6.2f}  {}\n", branch.name, parent,
+               branch.length_mm, branch.min_radius_mm, branch.mean_radius_mm, branch.max_radius_mm,
+               end_of(tree, static_cast<std::int32_t>(b)));
+  }
+}
+
 int run(const Options& options) {
   const vessel::LengthUnit unit = vessel::parse_length_unit(options.unit, "--unit");
   const io::VesselMesh mesh = io::read_vessel_file(options.vessel, unit);
   Progress progress(options.json);
   progress.stage("preparing the distance field …");
   const io::PreparedField prepared = io::prepare_field(mesh, options.cache);
+  progress.stage("looking for centrelines …");
+  const std::shared_ptr<const vessel::CentrelineTree> tree = io::prepare_centrelines(mesh, options.cache);
   progress.clear();
+  if (!options.centreline.empty()) io::write_centrelines_vtp(options.centreline, *tree);
   if (options.json) {
-    fmt::print("{}\n", io::vessel_json(mesh, *prepared.field).dump(2));
+    nlohmann::ordered_json facts = io::vessel_json(mesh, *prepared.field);
+    facts["centrelines"] = io::centrelines_json(*tree);
+    fmt::print("{}\n", facts.dump(2));
   } else {
     print_facts(mesh, *prepared.field);
+    print_branches(*tree);
   }
   return exit_success;
 }
@@ -89,11 +129,12 @@ int run(const Options& options) {
 
 std::function<int()> add_inspect(CLI::App& app) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("inspect", "what a mesh is: triangles, openings, lumen diameters, repairs");
+  CLI::App* command = app.add_subcommand(
+      "inspect", "what a mesh is: triangles, openings, lumen diameters, repairs, branches");
   command->add_option("VESSEL", options->vessel, "STL file of the lumen")->required();
   command->add_option("--unit", options->unit, "unit of the file: mm, cm or m")->capture_default_str();
-  command->add_option("--cache", options->cache, "folder for prepared distance fields");
+  command->add_option("--cache", options->cache, "folder for prepared distance fields and centrelines");
+  command->add_option("--centreline", options->centreline, "write the centrelines to this file (VTP)");
   command->add_flag("--json", options->json, "as JSON");
   return [options] { return run(*options); };
 }

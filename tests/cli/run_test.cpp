@@ -112,6 +112,7 @@ TEST(Inspect, SaysWhatAMeshIs) {
       run_endowire(folder, {"inspect", "v.stl", "--unit", "cm", "--cache", test::test_cache()});
   EXPECT_EQ(text.code, 0) << text.err;
   EXPECT_NE(text.out.find("8.0 x 8.0 x 60.0 mm"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("branches               1"), std::string::npos) << text.out;
   const Outcome outcome =
       run_endowire(folder, {"inspect", "v.stl", "--unit", "cm", "--json", "--cache", test::test_cache()});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
@@ -120,6 +121,25 @@ TEST(Inspect, SaysWhatAMeshIs) {
   EXPECT_EQ(facts["unit"], "cm");
   EXPECT_EQ(facts["openings"].size(), 0U);
   EXPECT_NEAR(facts["lumen_diameter_mm"]["p50"].get<double>(), 8.0, 0.3);
+  ASSERT_EQ(facts["centrelines"]["branches"].size(), 1U);
+  EXPECT_NEAR(facts["centrelines"]["branches"][0]["length_mm"].get<double>(), 60.0, 1.0);
+}
+
+TEST(Inspect, WritesCentrelines) {
+  const TemporaryFolder folder;
+  test::write_text(folder / "v.stl", test::tube_stl(4.0, 60.0));
+  const Outcome outcome =
+      run_endowire(folder, {"inspect", "v.stl", "--centreline", "c.vtp", "--cache", test::test_cache()});
+#ifdef ENDOWIRE_JUDGE
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(test::read_text(folder / "c.vtp").find("curvature_per_mm"), std::string::npos);
+  const Outcome nowhere =
+      run_endowire(folder, {"inspect", "v.stl", "--centreline", "no/c.vtp", "--cache", test::test_cache()});
+  EXPECT_EQ(nowhere.code, 2);
+  EXPECT_EQ(std::count(nowhere.err.begin(), nowhere.err.end(), '\n'), 1) << nowhere.err;
+#else
+  EXPECT_EQ(outcome.code, 2);  // a build without VTK says so
+#endif
 }
 
 TEST(Instruments, ListsTheLibraryAndItsSources) {
