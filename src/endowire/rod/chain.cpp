@@ -50,6 +50,16 @@ void ChainMaterial::resize(int rods) {
   weight_n.resize(at(rods + 1));
 }
 
+JointMaterial joint_material(const MaterialLine& line, double from_mm, double to_mm) {
+  JointMaterial joint;
+  joint.span_mm = to_mm - from_mm;
+  joint.bend_n_mm2.setConstant(line.flexural_rigidity_n_mm2(from_mm, to_mm));
+  joint.rest_bend_rad = line.rest_bend_rad(from_mm, to_mm);
+  joint.twist_n_mm2 = line.torsional_rigidity_n_mm2(from_mm, to_mm);
+  joint.kink_per_mm = line.kink_per_mm(from_mm, to_mm);
+  return joint;
+}
+
 void fill_material(const MaterialLine& line, const std::vector<double>& arc_mm, double gravity_m_per_s2,
                    double fluid_density_g_per_mm3, ChainMaterial& material) {
   ENDOWIRE_EXPECTS(arc_mm.size() >= 3, "a chain has at least two rods");
@@ -72,12 +82,7 @@ void fill_material_from(const MaterialLine& line, int first, double gravity_m_pe
     const double to = j == rods ? arc[at(rods)] : 0.5 * (arc[at(j)] + arc[at(j + 1)]);
     const double mass = line.mass_g(from, to) - fluid_density_g_per_mm3 * line.volume_mm3(from, to);
     material.weight_n[at(j)] = mass * gravity_m_per_s2 * kGramMetreToNewton;
-    JointMaterial& joint = material.joints[at(j)];
-    joint.span_mm = to - from;
-    joint.bend_n_mm2.setConstant(line.flexural_rigidity_n_mm2(from, to));
-    joint.rest_bend_rad = line.rest_bend_rad(from, to);
-    joint.twist_n_mm2 = line.torsional_rigidity_n_mm2(from, to);
-    joint.kink_per_mm = line.kink_per_mm(from, to);
+    material.joints[at(j)] = joint_material(line, from, to);
   }
 }
 

@@ -37,6 +37,9 @@ struct ChainMaterial {
   void resize(int rods);
 };
 
+/// A joint that stands for the wire from one arc to another.
+[[nodiscard]] JointMaterial joint_material(const MaterialLine& line, double from_mm, double to_mm);
+
 /// Fills `material` for joints at the given arcs; gravity_m_per_s2 is the magnitude used for weight_n.
 /// @param arc_mm  increasing, at least three
 void fill_material(const MaterialLine& line, const std::vector<double>& arc_mm, double gravity_m_per_s2,

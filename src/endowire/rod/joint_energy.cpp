@@ -48,6 +48,11 @@ struct KinkLaw {
   double value = 0.0, first = 0.0, second = 0.0;
 };
 
+/// ∂(l̄ w(φ/l̄))/∂l̄ = w − κ w'
+double kink_by_span(const KinkLaw& law, double phi, double span_mm) {
+  return (law.value - phi * law.first) / span_mm;
+}
+
 KinkLaw kink_law(const JointMaterial& material, double phi) {
   constexpr double kStart =
       0.9;  // stiffening starts at 90 % of κ_m; five times EI κ_m is added at κ_m itself
@@ -163,6 +168,7 @@ void add_kink(const JointMaterial& material, double c, const Turns& dc, const Ma
   const double phi = std::acos(std::min(1.0, c));
   const KinkLaw law = kink_law(material, phi);
   if (law.value <= 0.0) return;
+  out.kink_by_span_mj_per_mm = kink_by_span(law, phi, material.span_mm);
   const double sine = std::sin(phi);
   const double dphi = -1.0 / sine;
   const double ddphi = -c / (sine * sine * sine);
@@ -204,7 +210,7 @@ double joint_energy(const JointMaterial& material, const Frame& hand_side, const
 }
 
 void joint_derivatives(const JointMaterial& material, const Frame& hand_side, const Frame& tip_side,
-                       double twist_rad, JointDerivatives& out, bool with_rest_gradient) {
+                       double twist_rad, JointDerivatives& out, bool by_material) {
   out = JointDerivatives{};
   const Eigen::Matrix3d p = hand_side.transpose() * tip_side;
   const Eigen::Matrix3d pt = p.transpose();
@@ -219,13 +225,15 @@ void joint_derivatives(const JointMaterial& material, const Frame& hand_side, co
   const AngleFactor k = angle_factor(c);
   const bool straight =
       material.rest_bend_rad.isZero(0.0) && material.bend_n_mm2[0] == material.bend_n_mm2[1];
-  if (straight && !with_rest_gradient) {
+  if (straight && !by_material) {
     add_straight(material, k, dc, ddc, out);
   } else {
     add_side(material, Side{p, 0, 3, 1.0}, k, dc, ddc, out);
     add_side(material, Side{pt, 3, 0, -1.0}, k, dc, ddc, out);
   }
+  out.bend_mj = out.energy_mj;
   add_twist(material, p, twist_rad, dc, out);
+  out.twist_mj = out.energy_mj - out.bend_mj;
   add_kink(material, c, dc, ddc, out);
 }
 

@@ -27,7 +27,11 @@ struct JointDerivatives {
   double energy_mj = 0.0;
   Turns gradient = Turns::Zero();
   Eigen::Matrix<double, 6, 6> hessian = Eigen::Matrix<double, 6, 6>::Zero();
-  /// ∂E/∂κ̄ and its gradient: what changes when the joint's rest shape does.
+  // Filled when asked for: what changes when the joint is made of another piece of wire.
+  double bend_mj = 0.0;                 ///< part of the energy, proportional to B/l̄
+  double twist_mj = 0.0;                ///< part of the energy, proportional to GJ/l̄
+  double kink_by_span_mj_per_mm = 0.0;  ///< ∂(l̄ w)/∂l̄
+  /// ∂E/∂κ̄ and its gradient.
   Eigen::Vector2d rest_gradient = Eigen::Vector2d::Zero();
   Eigen::Matrix<double, 2, 6> rest_turn = Eigen::Matrix<double, 2, 6>::Zero();
 };
@@ -62,8 +66,8 @@ struct JointDerivatives {
 
 /// The same with exact first and second derivatives. The second derivatives are those along great arcs of the
 /// tangents with frames transported in parallel from this state, which makes the Hessian symmetric.
-/// @param with_rest_gradient  whether rest_gradient and rest_turn are wanted; without them a straight joint is cheaper
+/// @param by_material  whether the derivatives by what the joint is made of are wanted; without them a straight joint is cheaper
 void joint_derivatives(const JointMaterial& material, const Frame& hand_side, const Frame& tip_side,
-                       double twist_rad, JointDerivatives& out, bool with_rest_gradient = false);
+                       double twist_rad, JointDerivatives& out, bool by_material = false);
 
 }  // namespace endowire::rod

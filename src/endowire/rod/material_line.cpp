@@ -111,10 +111,22 @@ double MaterialLine::kink_per_mm(double from_mm, double to_mm) const {
   return smallest;
 }
 
-double MaterialLine::radius_mm(double arc_mm) const {
+double MaterialLine::taper_at(const Taper Section::*taper, double arc_mm) const {
   const std::size_t k = section_at(arc_mm);
   const Section& section = instrument_.sections[k];
-  return at(section.radius_mm, std::clamp((arc_mm - start_mm_[k]) / section.length_mm, 0.0, 1.0));
+  return at(section.*taper, std::clamp((arc_mm - start_mm_[k]) / section.length_mm, 0.0, 1.0));
+}
+
+double MaterialLine::flexural_rigidity_n_mm2(double arc_mm) const {
+  return taper_at(&Section::flexural_rigidity_n_mm2, arc_mm);
+}
+
+double MaterialLine::torsional_rigidity_n_mm2(double arc_mm) const {
+  return taper_at(&Section::torsional_rigidity_n_mm2, arc_mm);
+}
+
+double MaterialLine::radius_mm(double arc_mm) const {
+  return taper_at(&Section::radius_mm, arc_mm);
 }
 
 double MaterialLine::friction(double arc_mm) const {

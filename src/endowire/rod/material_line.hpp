@@ -29,6 +29,9 @@ class MaterialLine {
   /// Smallest kink curvature of the stretch.
   [[nodiscard]] double kink_per_mm(double from_mm, double to_mm) const;
 
+  // At one arc.
+  [[nodiscard]] double flexural_rigidity_n_mm2(double arc_mm) const;
+  [[nodiscard]] double torsional_rigidity_n_mm2(double arc_mm) const;
   [[nodiscard]] double radius_mm(double arc_mm) const;
   [[nodiscard]] double friction(double arc_mm) const;
   /// κ0 as a vector in the material frame.
@@ -36,6 +39,7 @@ class MaterialLine {
 
  private:
   [[nodiscard]] std::size_t section_at(double arc_mm) const;
+  [[nodiscard]] double taper_at(const Taper Section::*taper, double arc_mm) const;
   template <typename Integrand>
   double over_sections(double from_mm, double to_mm, Integrand integrand) const;
 
