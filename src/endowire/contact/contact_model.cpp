@@ -8,6 +8,8 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
+constexpr double kSameWay = 0.9;  // cosine
+
 Eigen::Vector3d joint_motion(const std::vector<double>& step, int joint, const GuidedJoint& guided) {
   const double* v = step.data() + 4 * joint;
   if (joint == guided.joint) return v[0] * guided.direction;
@@ -44,13 +46,18 @@ Eigen::Matrix<double, 2, 4> slip_by_motion(const LinearContact& c) {
   return by;
 }
 
-void add_friction(LinearContact& c, const Eigen::Vector4d& motion, AtSample& out) {
+void add_friction(LinearContact& c, const Eigen::Vector4d& motion, bool majorant, AtSample& out) {
   const Eigen::Matrix<double, 2, 4> by = slip_by_motion(c);
   const Eigen::Vector2d slip = c.slip_mm + by * motion;
-  const FrictionResponse f = friction_response(c.friction, slip);
+  FrictionResponse f = friction_response(c.friction, slip);
   const bool stuck = c.friction.stiffness_n_per_mm * slip.norm() <= c.friction.limit_n;
-  out.changed = out.changed || stuck != c.stuck;
+  // What slides back, or far to the side of where it slid, is as far from the parabola last used as what sticks.
+  const bool turned = !stuck && slip.dot(c.slid_mm) < kSameWay * slip.norm() * c.slid_mm.norm();
+  out.changed = out.changed || stuck != c.stuck || turned;
   c.stuck = stuck;
+  c.slid_mm = slip;
+  if (majorant && !stuck)
+    f.stiffness_n_per_mm = c.friction.limit_n / slip.norm() * Eigen::Matrix2d::Identity();
   out.touches = true;
   out.energy_mj += f.energy_mj;
   out.gradient.noalias() += by.transpose() * f.force_n;
@@ -106,15 +113,17 @@ void scatter_gradient(int rod, double fraction, const Eigen::Vector4d& g, const 
   }
 }
 
-ModelPart ContactModel::add_derivatives(const std::vector<double>& step, bool assumed,
+ModelPart ContactModel::add_derivatives(const std::vector<double>& step, solve::ContactHessian kind,
                                         const GuidedJoint& guided, math::BandMatrix& hessian,
                                         std::vector<double>& gradient) {
   ModelPart part;
   for (LinearContact& c : contacts_) {
     const Eigen::Vector3d u = motion_of(c, step, guided);
     AtSample s;
-    add_walls(c, u, assumed, s);
-    if (c.friction.limit_n > 0.0) add_friction(c, {u[0], u[1], u[2], step[at(4 * c.rod + 3)]}, s);
+    add_walls(c, u, kind == solve::ContactHessian::assumed, s);
+    if (c.friction.limit_n > 0.0)
+      add_friction(c, {u[0], u[1], u[2], step[at(4 * c.rod + 3)]}, kind == solve::ContactHessian::majorant,
+                   s);
     part.changed = part.changed || s.changed;
     part.energy_mj += s.energy_mj;
     if (!s.touches) continue;

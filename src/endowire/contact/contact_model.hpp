@@ -6,6 +6,7 @@
 
 #include "endowire/contact/friction.hpp"
 #include "endowire/math/band_ldlt.hpp"
+#include "endowire/solve/newton.hpp"
 
 namespace endowire::contact {
 
@@ -24,7 +25,7 @@ void scatter_gradient(int rod, double fraction, const Eigen::Vector4d& g, const 
 struct ModelPart {
   double energy_mj = 0.0;
   bool changed =
-      false;  ///< some contact is open or closed, sticks or slides, otherwise than last evaluated or assumed
+      false;  ///< some contact is open or closed, sticks, slides or slides another way than last evaluated or assumed
 };
 
 /// One sample with its walls and its friction, as the linear motion of its rod sees them.
@@ -47,6 +48,7 @@ struct LinearContact {
   Eigen::Vector2d slip_mm = Eigen::Vector2d::Zero();  ///< before the motion
   FrictionLaw friction;                               ///< no friction when its limit is 0
   bool stuck = false;                                 ///< as last evaluated
+  Eigen::Vector2d slid_mm = Eigen::Vector2d::Zero();  ///< slip as last evaluated
 };
 
 /// Motion of the sample of a contact.
@@ -73,9 +75,9 @@ class ContactModel {
 
   /// Adds gradient and Hessian of C at a motion.
   /// @param step     the motion in the unknowns
-  /// @param assumed  the derivatives count walls as closed that are marked so, and no others
-  ModelPart add_derivatives(const std::vector<double>& step, bool assumed, const GuidedJoint& guided,
-                            math::BandMatrix& hessian, std::vector<double>& gradient);
+  ModelPart add_derivatives(const std::vector<double>& step, solve::ContactHessian kind,
+                            const GuidedJoint& guided, math::BandMatrix& hessian,
+                            std::vector<double>& gradient);
   [[nodiscard]] const std::vector<LinearContact>& contacts() const { return contacts_; }
   [[nodiscard]] LinearContact& contact(std::size_t i) { return contacts_[i]; }
 

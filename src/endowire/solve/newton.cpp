@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace endowire::solve {
 
@@ -14,10 +15,12 @@ constexpr double kRaise = 4.0;
 constexpr double kArmijo = 1e-4;
 constexpr int kMaxHalvings = 30;
 constexpr int kWholeRounds = 8;
-constexpr int kDescendingRounds = 8;  // cut off, the direction still descends
+constexpr int kDescendingRounds = 16;  // cut off, the direction still descends
 constexpr int kRoundAttempts = 6;
 constexpr double kModelShare = 0.02;     // rounds end once they change the direction by less than this share
-constexpr double kModelFloor_mm = 1e-4;  // and below this: the next iteration does that anyway
+constexpr double kModelFloor_mm = 1e-4;  // and below this: the next iteration does that anyway,
+constexpr double kDescentFloor_mm =
+    1e-7;  // unless whole rounds go astray, where it would start in the same place
 constexpr double kCalm_mm =
     0.2;  // lagged forces are renewed after full steps this short: before, they mean nothing
 constexpr double kUnchecked_mm =
@@ -27,6 +30,10 @@ constexpr double kPoorStep =
 constexpr double kShorten =
     2.0;  // a direction up to this many trust radii long is shortened, a longer one bent by the weight
 constexpr double kSmallestTrust_mm = 0.05;
+
+double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
 
 }  // namespace
 
@@ -63,12 +70,12 @@ int Newton::inertia(Problem& problem) {
   resize(problem.unknowns());
   linearise(problem);
   std::fill(direction_.begin(), direction_.end(), 0.0);
-  static_cast<void>(model_at_direction(problem, 0.0, false));
+  static_cast<void>(model_at_direction(problem, 0.0, ContactHessian::present));
   return matrix_.factorise();
 }
 
 /// Sets matrix_ and model_gradient_ at direction_; returns the value of the model there.
-ContactPart Newton::model_at_direction(Problem& problem, double lambda, bool assumed) {
+ContactPart Newton::model_at_direction(Problem& problem, double lambda, ContactHessian kind) {
   matrix_ = hessian_;
   hessian_.multiply(direction_, product_);
   double value = 0.0;
@@ -77,7 +84,7 @@ ContactPart Newton::model_at_direction(Problem& problem, double lambda, bool ass
     value += direction_[i] * (gradient_[i] + 0.5 * pull);
     model_gradient_[i] = gradient_[i] + pull;
   }
-  ContactPart contacts = problem.add_contacts(direction_, assumed, matrix_, model_gradient_);
+  ContactPart contacts = problem.add_contacts(direction_, kind, matrix_, model_gradient_);
   contacts.value_mj += value;
   return contacts;
 }
@@ -94,14 +101,20 @@ bool Newton::solve_round(double lambda, SolveReport& report) {
 
 /// Minimises the model; the result is in direction_. False when it is not positive definite.
 ///
-/// Whole rounds, which need not descend, find the contacts that close in a few; when they have not after kWholeRounds, the
-/// best of them is improved in rounds that do descend.
+/// Whole rounds, which need not descend, find the contacts that close in a few; when they end without, or where the model is
+/// higher than it has been, the best of them is improved in rounds that do descend.
 bool Newton::solve_model(Problem& problem, double lambda, bool from_rest, SolveReport& report) {
   if (from_rest) std::fill(direction_.begin(), direction_.end(), 0.0);
+  const double rounding = 1e-15 * std::abs(report.merit_mj);
   double least = HUGE_VAL;
+  bool small = false;
   for (int round = 0; round < kWholeRounds; ++round) {
-    const ContactPart model = model_at_direction(problem, lambda, round == 0);
-    if (round > 0 && !model.changed) return true;
+    const ContactPart model =
+        model_at_direction(problem, lambda, round == 0 ? ContactHessian::assumed : ContactHessian::present);
+    if (round > 0 && (small || !model.changed)) {
+      if (model.value_mj <= least + rounding) return true;
+      break;
+    }
     if (model.value_mj < least) {
       least = model.value_mj;
       best_ = direction_;
@@ -109,44 +122,56 @@ bool Newton::solve_model(Problem& problem, double lambda, bool from_rest, SolveR
     if (!solve_round(lambda, report)) return false;
     for (std::size_t i = 0; i < round_.size(); ++i) direction_[i] += round_[i];
     const Norms change = norms(round_);
-    const Norms whole = norms(direction_);
     if (!std::isfinite(change.position)) return true;
-    if (round > 0 && small_change(change, whole)) return true;
-    if (round == 0 && !model.changed && change.position <= kModelFloor_mm && change.turn <= kModelFloor_mm)
-      return true;
+    small = small_change(change, norms(direction_), kModelFloor_mm);
   }
   direction_ = best_;
+  return descend_model(problem, lambda, least, report);
+}
+
+/// Improves direction_, where the model has the value `value_mj`, in rounds that descend. False as solve_model().
+///
+/// Rounds with the majorant find, slowly but surely, what sticks; after each of them a round of Newton's is tried, which ends
+/// the search where it finds everything as it was.
+bool Newton::descend_model(Problem& problem, double lambda, double value_mj, SolveReport& report) {
   for (int round = 0; round < kDescendingRounds; ++round) {
-    static_cast<void>(model_at_direction(problem, lambda, false));
+    const bool surely = round % 2 == 0;
+    static_cast<void>(
+        model_at_direction(problem, lambda, surely ? ContactHessian::majorant : ContactHessian::present));
     if (!solve_round(lambda, report)) return false;
-    double slope = 0.0;
-    for (std::size_t i = 0; i < round_.size(); ++i) slope += model_gradient_[i] * round_[i];
+    const double descent = dot(model_gradient_, round_);
     double alpha = 1.0;
     double taken = 0.0;
-    for (int attempt = 0; attempt < kRoundAttempts; ++attempt) {
+    bool lower = false;
+    bool changed = true;
+    for (int attempt = 0; attempt < kRoundAttempts && !lower; ++attempt) {
       for (std::size_t i = 0; i < round_.size(); ++i) direction_[i] += (alpha - taken) * round_[i];
       taken = alpha;
-      const double value = model_at_direction(problem, lambda, false).value_mj;
-      if (value <= least + 1e-4 * alpha * slope) {
-        least = value;
-        break;
+      const ContactPart there = model_at_direction(problem, lambda, ContactHessian::present);
+      changed = there.changed;
+      lower = there.value_mj <= value_mj + kArmijo * alpha * descent;
+      if (lower) {
+        value_mj = there.value_mj;
+      } else {
+        // The secant of the slopes ends short of the minimum of a convex function.
+        const double steeper = descent - dot(model_gradient_, round_);
+        alpha *= steeper < 0.0 ? std::clamp(descent / steeper, 0.1, 0.7) : 0.5;
       }
-      double slope_there = 0.0;
-      for (std::size_t i = 0; i < round_.size(); ++i) slope_there += model_gradient_[i] * round_[i];
-      alpha *= std::clamp(slope / (slope - slope_there), 0.1,
-                          0.7);  // secant: short of the minimum of a convex function
     }
-    Norms change = norms(round_);
-    change.position *= taken;
-    change.turn *= taken;
-    if (small_change(change, norms(direction_))) return true;
+    if (!lower) {
+      for (std::size_t i = 0; i < round_.size(); ++i) direction_[i] -= taken * round_[i];
+      if (surely) return true;  // to rounding, this is the minimum
+      continue;
+    }
+    if (!surely && (!changed || small_change(norms(round_), norms(direction_), kDescentFloor_mm)))
+      return true;
   }
   return true;
 }
 
-bool Newton::small_change(const Norms& change, const Norms& whole) {
-  return change.position <= std::max(kModelFloor_mm, kModelShare * whole.position) &&
-         change.turn <= std::max(kModelFloor_mm, kModelShare * whole.turn);
+bool Newton::small_change(const Norms& change, const Norms& whole, double floor_mm) {
+  return change.position <= std::max(floor_mm, kModelShare * whole.position) &&
+         change.turn <= std::max(floor_mm, kModelShare * whole.turn);
 }
 
 /// The minimum of the model within the trust radius; the proximal weight is raised until there is one.
@@ -164,41 +189,55 @@ bool Newton::find_direction(Problem& problem, double trust_mm, const NewtonSpec&
   return lambda_ < kLargestWeight;
 }
 
-double Newton::slope() const {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < gradient_.size(); ++i) sum += gradient_[i] * direction_[i];
-  return sum;
-}
-
-double Newton::search_line(Problem& problem, const NewtonSpec& spec, double trust_mm, SolveReport& report) {
-  const Norms step = norms(direction_);
-  const double descent = slope();
-  if (!(descent < 0.0)) return 0.0;
-  double alpha = 1.0;
-  if (step.position > trust_mm) alpha = trust_mm / step.position;
-  if (step.turn * alpha > spec.max_turn_rad) alpha = spec.max_turn_rad / step.turn;
+Newton::Step Newton::search_line(Problem& problem, const NewtonSpec& spec, double trust_mm,
+                                 SolveReport& report) {
+  const Norms whole = norms(direction_);
+  const double descent = dot(gradient_, direction_);
+  if (!(descent < 0.0)) return {};
+  double first = 1.0;
+  if (whole.position > trust_mm) first = trust_mm / whole.position;
+  if (whole.turn * first > spec.max_turn_rad) first = spec.max_turn_rad / whole.turn;
   // A decrease below the rounding of the merit cannot be seen: the gradient alone judges such a step.
   const double rounding = 1e-13 * (std::abs(report.merit_mj) + 1.0);
+  double alpha = first;
   for (int halving = 0; halving < kMaxHalvings; ++halving) {
     const double trial = problem.try_step(direction_, alpha);
     if (trial <= report.merit_mj + kArmijo * alpha * descent + rounding) {
+      if (lambda_ > 0.0 && alpha == 1.0) alpha = lengthen(problem, spec, trust_mm, whole, trial);
       problem.accept_step();
-      return alpha;
+      return {alpha, alpha / first};
     }
-    if (halving == 0 && alpha == 1.0 && problem.correct_contacts(direction_)) {
+    if (halving == 0 && alpha == 1.0 && std::isfinite(trial) && problem.correct_contacts(direction_)) {
       kept_ = direction_;
       if (solve_model(problem, lambda_, false, report) &&
-          norms(direction_).position <= kShorten * step.position &&
+          norms(direction_).position <= kShorten * whole.position &&
           problem.try_step(direction_, 1.0) <= report.merit_mj + kArmijo * descent + rounding) {
         problem.accept_step();
-        return 1.0;
+        return {1.0, 1.0};
       }
       direction_ = kept_;
     }
     alpha *= 0.5;
     if (-alpha * descent < rounding * 1e-3) break;
   }
-  return 0.0;
+  return {};
+}
+
+/// The proximal weight is a guess that may be far too large, and the way from a saddle is then crept: a step that it bent is
+/// doubled while the merit falls and the trust radius lasts. The last trial is that of the result.
+double Newton::lengthen(Problem& problem, const NewtonSpec& spec, double trust_mm, const Norms& whole,
+                        double merit_mj) {
+  double alpha = 1.0;
+  while (2.0 * alpha * whole.position <= trust_mm && 2.0 * alpha * whole.turn <= spec.max_turn_rad) {
+    const double further = problem.try_step(direction_, 2.0 * alpha);
+    if (!(further < merit_mj)) {
+      static_cast<void>(problem.try_step(direction_, alpha));
+      break;
+    }
+    merit_mj = further;
+    alpha *= 2.0;
+  }
+  return alpha;
 }
 
 bool Newton::small_residual(const Problem& problem, const NewtonSpec& spec, SolveReport& report) const {
@@ -225,6 +264,12 @@ SolveReport Newton::minimise(Problem& problem, const NewtonSpec& spec) {
     report.termination = termination;
     return report;
   };
+  const auto start_anew = [&] {
+    calm = false;
+    unchecked_mm = HUGE_VAL;
+    since_change = -1;
+    trust_mm = spec.max_step_mm;
+  };
   const auto within = [&](const Norms& n) {
     return n.position <= spec.correction_tolerance_mm && n.turn <= spec.correction_tolerance_rad;
   };
@@ -247,40 +292,38 @@ SolveReport Newton::minimise(Problem& problem, const NewtonSpec& spec) {
       const Validity validity = problem.check();
       if (validity == Validity::holds) return end(Termination::converged);
       if (validity == Validity::hopeless) return end(Termination::left_domain);
-      settled = calm = false;
-      unchecked_mm = HUGE_VAL;
-      since_change = -1;
-      trust_mm = spec.max_step_mm;
+      settled = false;
+      if (validity == Validity::changed) start_anew();
       continue;
     }
     if (since_change >= spec.max_iterations) return end(Termination::iteration_limit);
-    double alpha = search_line(problem, spec, trust_mm, report);
+    Step step = search_line(problem, spec, trust_mm, report);
     // The model misled: shorter steps, bent towards the gradient.
-    for (int attempt = 0; alpha == 0.0 && attempt < 4; ++attempt) {
-      const double weight = std::max(10.0 * lambda_, 100.0 * kFirstWeight);
-      lambda_ = weight;
+    for (int attempt = 0; step.alpha == 0.0 && attempt < 4; ++attempt) {
+      lambda_ = std::max(10.0 * lambda_, 100.0 * kFirstWeight);
       ++report.regularised_iterations;
-      if (solve_model(problem, weight, true, report)) alpha = search_line(problem, spec, trust_mm, report);
+      linearise(problem);  // a correction of the contacts may have been left in the model
+      if (solve_model(problem, lambda_, true, report)) step = search_line(problem, spec, trust_mm, report);
     }
-    if (alpha == 0.0) return end(Termination::stalled);
-    trust_mm = alpha < kPoorStep ? std::max(kSmallestTrust_mm, 2.0 * alpha * report.correction_mm)
-                                 : std::min(spec.max_step_mm, 4.0 * trust_mm);
-    const bool whole = lambda_ == 0.0 && alpha == 1.0;
-    settled = whole && report.correction_mm <= spec.correction_tolerance_mm &&
-              report.correction_rad <= spec.correction_tolerance_rad;
-    calm = alpha * report.correction_mm <= kCalm_mm;
+    if (step.alpha == 0.0) return end(Termination::stalled);
+    const Norms correction = norms(direction_);
+    report.correction_mm = correction.position;
+    report.correction_rad = correction.turn;
+    const double moved_mm = step.alpha * correction.position;
+    trust_mm = step.share < kPoorStep ? std::max(kSmallestTrust_mm, 2.0 * moved_mm)
+                                      : std::min(spec.max_step_mm, 4.0 * trust_mm);
+    const bool whole = lambda_ == 0.0 && step.alpha == 1.0;
+    settled = whole && within(correction);
+    calm = moved_mm <= kCalm_mm;
     const bool outside = !problem.inside_region();
-    unchecked_mm += alpha * report.correction_mm;
+    unchecked_mm += moved_mm;
     if (outside || since_change == 0 ||
-        (whole && report.correction_mm <= spec.check_correction_mm && unchecked_mm > kUnchecked_mm)) {
+        (whole && correction.position <= spec.check_correction_mm && unchecked_mm > kUnchecked_mm)) {
       const Validity validity = problem.check();
       if (validity == Validity::hopeless) return end(Termination::left_domain);
-      unchecked_mm = validity == Validity::holds ? 0.0 : HUGE_VAL;
-      if (validity == Validity::changed) {
-        settled = calm = false;
-        since_change = -1;
-        trust_mm = spec.max_step_mm;
-      }
+      unchecked_mm = 0.0;
+      if (validity != Validity::holds) settled = false;
+      if (validity == Validity::changed) start_anew();
     }
   }
 }

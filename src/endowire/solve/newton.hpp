@@ -17,15 +17,23 @@ struct ForceScales {
 /// Whether a problem still describes what it was set up for.
 enum class Validity {
   holds,
-  changed,   ///< it did not, and has been set up anew around the base state
-  hopeless,  ///< it cannot be
+  corrected,  ///< it did, to its accuracy; the merit has changed a little, around the same base state
+  changed,    ///< it did not, and has been set up anew around the base state
+  hopeless,   ///< it cannot be
 };
 
 /// What contacts contribute to a model at a motion.
 struct ContactPart {
   double value_mj = 0.0;  ///< C(step) − C(0) − ∇C(0)ᵀstep
   bool changed =
-      false;  ///< some contact opened or closed, stuck or slid, or stiffened, since the last evaluation
+      false;  ///< some contact opened or closed, stuck, slid or slid another way, since the last evaluation
+};
+
+/// Which Hessian of the contacts a round of the model works with.
+enum class ContactHessian {
+  assumed,  ///< walls count as closed where the last model left them so; else as `present`
+  present,  ///< the generalised Hessian there
+  majorant,  ///< sliding friction as the parabola that touches its law and nowhere lies below it: such a round descends
 };
 
 /// What Newton needs of a mechanical problem: a base state, a model around it, and a curve of trial states.
@@ -43,11 +51,9 @@ class Problem {
   /// and an identity row.
   virtual double linearise(math::BandMatrix& hessian, std::vector<double>& gradient) = 0;
   /// Adds ∇C(step) − ∇C(0) and the Hessian of C there. The default has no contacts.
-  /// @param assumed  contacts count as closed where the last model left them so
-  virtual ContactPart add_contacts(const std::vector<double>& step, bool assumed, math::BandMatrix& hessian,
-                                   std::vector<double>& gradient) {
-    static_cast<void>(step), static_cast<void>(assumed), static_cast<void>(hessian),
-        static_cast<void>(gradient);
+  virtual ContactPart add_contacts(const std::vector<double>& step, ContactHessian kind,
+                                   math::BandMatrix& hessian, std::vector<double>& gradient) {
+    static_cast<void>(step), static_cast<void>(kind), static_cast<void>(hessian), static_cast<void>(gradient);
     return {};
   }
   /// After a trial of the whole `step` failed: the contacts of the model take the gaps that they truly had there, so that the
@@ -98,7 +104,8 @@ struct NewtonSpec {
 /// Trust  max_step_mm at first; twice the step taken after a line search that went badly, larger again after good ones.
 /// Bends  a whole step that fails is corrected once for the curvature of the walls that it follows (second-order correction of
 ///        sequential quadratic programming [Fletcher1982]).
-/// α      from min(1, turn limit), halved until the merit has decreased by 1e-4 of the linear prediction (Armijo).
+/// α      from min(1, turn limit), halved until the merit has decreased by 1e-4 of the linear prediction (Armijo); with λ > 0
+///        doubled while the merit falls.
 /// Stops  converged when the last correction, with λ = 0 and α = 1, was within its tolerances, and there
 ///        |g| ≤ force_tolerance · scale + rounding + floor  for forces and moments, the lagged quantities are within
 ///        lag_tolerance of their present values, and the problem holds.
@@ -113,19 +120,24 @@ class Newton {
   struct Norms {
     double position, turn;
   };
+  /// What a line search took of direction_; nothing when no step decreases the merit.
+  struct Step {
+    double alpha = 0.0;
+    double share = 0.0;  ///< of the first α tried: what trust and turn allowed
+  };
   [[nodiscard]] static Norms norms(const std::vector<double>& v);
   void resize(int unknowns);
   double linearise(Problem& problem);
-  ContactPart model_at_direction(Problem& problem, double lambda, bool assumed);
+  ContactPart model_at_direction(Problem& problem, double lambda, ContactHessian kind);
   bool solve_round(double lambda, SolveReport& report);
   bool solve_model(Problem& problem, double lambda, bool from_rest, SolveReport& report);
-  [[nodiscard]] static bool small_change(const Norms& change, const Norms& whole);
+  [[nodiscard]] static bool small_change(const Norms& change, const Norms& whole, double floor_mm);
+  bool descend_model(Problem& problem, double lambda, double value_mj, SolveReport& report);
   bool find_direction(Problem& problem, double trust_mm, const NewtonSpec& spec, SolveReport& report);
   bool small_residual(const Problem& problem, const NewtonSpec& spec, SolveReport& report) const;
-  /// Change of the merit per unit step, to first order.
-  [[nodiscard]] double slope() const;
-  /// The step taken, 0 when none decreases the merit.
-  double search_line(Problem& problem, const NewtonSpec& spec, double trust_mm, SolveReport& report);
+  Step search_line(Problem& problem, const NewtonSpec& spec, double trust_mm, SolveReport& report);
+  double lengthen(Problem& problem, const NewtonSpec& spec, double trust_mm, const Norms& whole,
+                  double merit_mj);
 
   math::BandMatrix hessian_, matrix_;
   std::vector<double> gradient_, model_gradient_, direction_, round_, product_, best_, kept_;

@@ -53,7 +53,7 @@ double value_at(ContactModel model, const std::vector<double>& step, const Guide
   math::BandMatrix unused;
   unused.resize(kUnknowns);
   std::vector<double> gradient(kUnknowns, 0.0);
-  return model.add_derivatives(step, false, guided, unused, gradient).energy_mj;
+  return model.add_derivatives(step, solve::ContactHessian::present, guided, unused, gradient).energy_mj;
 }
 
 // Taylor slopes about motions that open, close and slide contacts, with all joints free and with one on the sheath's line.
@@ -72,7 +72,8 @@ TEST(ContactModel, TaylorSlopesAtAMotion) {
       hessian.resize(kUnknowns);
       hessian.set_zero();
       std::vector<double> gradient(kUnknowns, 0.0);
-      const ModelPart part = model.add_derivatives(step, false, joint, hessian, gradient);
+      const ModelPart part =
+          model.add_derivatives(step, solve::ContactHessian::present, joint, hessian, gradient);
       EXPECT_EQ(part.energy_mj, value_at(model, step, joint));
       EXPECT_GT(std::abs(test::dot(gradient, d)), 1e-3);
       const auto along = [&](double h) {
@@ -117,27 +118,27 @@ TEST(ContactModel, ContactsCloseAndOpenWithTheMotion) {
   math::BandMatrix hessian;
   hessian.resize(8);
   std::vector<double> step(8, 0.0);
-  const auto at = [&](double z, bool assumed) {
+  const auto at = [&](double z, solve::ContactHessian kind) {
     step[2] = z;
     hessian.set_zero();
     std::vector<double> gradient(8, 0.0);
-    const ModelPart part = model.add_derivatives(step, assumed, {}, hessian, gradient);
+    const ModelPart part = model.add_derivatives(step, kind, {}, hessian, gradient);
     return std::tuple{part.energy_mj, part.changed, gradient[2], hessian.lower(2, 2)};
   };
-  EXPECT_EQ(at(0.0, false), std::tuple(0.0, false, 0.0, 0.0));
-  const auto [energy, changed, force, stiffness] = at(-0.3, false);
+  EXPECT_EQ(at(0.0, solve::ContactHessian::present), std::tuple(0.0, false, 0.0, 0.0));
+  const auto [energy, changed, force, stiffness] = at(-0.3, solve::ContactHessian::present);
   EXPECT_NEAR(energy, 0.5 * 4.0 * 0.04, 1e-15);
   EXPECT_TRUE(changed);
   EXPECT_NEAR(force, -0.8, 1e-15);
   EXPECT_EQ(stiffness, 4.0);
-  EXPECT_FALSE(std::get<1>(at(-0.3, false)));
+  EXPECT_FALSE(std::get<1>(at(-0.3, solve::ContactHessian::present)));
   // Assumed closed: the derivatives are those of the spring, pulling where it would; the value stays that of the wall.
-  const auto [open_energy, open_changed, pull, spring] = at(0.2, true);
+  const auto [open_energy, open_changed, pull, spring] = at(0.2, solve::ContactHessian::assumed);
   EXPECT_EQ(open_energy, 0.0);
   EXPECT_TRUE(open_changed);
   EXPECT_NEAR(pull, 4.0 * 0.3, 1e-15);
   EXPECT_EQ(spring, 4.0);
-  EXPECT_EQ(at(0.2, false), std::tuple(0.0, true, 0.0, 0.0));
+  EXPECT_EQ(at(0.2, solve::ContactHessian::present), std::tuple(0.0, true, 0.0, 0.0));
 }
 
 // A joint on the sheath's line moves by its first unknown alone.

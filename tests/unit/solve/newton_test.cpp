@@ -143,6 +143,22 @@ TEST(Newton, LeavesASaddleForAMinimum) {
 }
 
 // The answer does not depend on the proximal weight, only the way does.
+// From a saddle with a proximal weight ten thousand times too large steps are short: they are lengthened while the merit falls.
+// Breaks when a bent step is taken as it is: the way takes hundreds of iterations.
+TEST(Newton, ALargeProximalWeightDoesNotMakeItCreep) {
+  NewtonSpec spec = generous();
+  spec.proximal_scale = 1e10;
+  spec.max_iterations = 2000;
+  QuarticChain problem(10, 1.0, -1.0, 0.01);
+  test::Random random(86);
+  for (double& y : problem.y) y = 1e-6 * random.normal();
+  Newton newton;
+  const SolveReport report = newton.minimise(problem, spec);
+  EXPECT_TRUE(report.converged());
+  EXPECT_LT(report.iterations, 60);
+  EXPECT_LT(problem.residual(), 1e-6);
+}
+
 TEST(Newton, TheProximalWeightDoesNotShapeTheResult) {
   std::vector<std::vector<double>> results;
   for (const double scale : {0.1, 1.0, 10.0}) {
@@ -299,8 +315,8 @@ class ChainOverFloor final : public QuarticChain {
     for (std::size_t i = 0; i < y.size(); ++i) gradient[i] -= k_ * pressed(y[i]);
     return energy(y);
   }
-  ContactPart add_contacts(const std::vector<double>& step, bool /*assumed*/, math::BandMatrix& hessian,
-                           std::vector<double>& gradient) override {
+  ContactPart add_contacts(const std::vector<double>& step, ContactHessian /*kind*/,
+                           math::BandMatrix& hessian, std::vector<double>& gradient) override {
     ++models;
     ContactPart part;
     closed_.resize(y.size(), 0);
@@ -353,6 +369,78 @@ TEST(Newton, OneIterationFindsWhatTouches) {
   }
 }
 
+/// A quadratic chain that rubs at every unknown:  E = Σ (½ b yᵢ² − fᵢ yᵢ) + ½ c Σ (yᵢ − yᵢ₊₄)² + Σ ψ(yᵢ),  ψ = min over sticking,
+/// ½ k y², and sliding, L (|y| − L/2k).  What sticks and what slides changes from round to round of the model.
+class RubbingChain final : public QuarticChain {
+ public:
+  RubbingChain(int joints, double stick_stiffness)
+      : QuarticChain(joints, 0.0, 0.02, 30.0), k_(stick_stiffness) {}
+
+  double linearise(math::BandMatrix& hessian, std::vector<double>& gradient) override {
+    static_cast<void>(QuarticChain::linearise(hessian, gradient));
+    for (std::size_t i = 0; i < y.size(); ++i) gradient[i] += force(y[i]);
+    return energy(y);
+  }
+  ContactPart add_contacts(const std::vector<double>& step, ContactHessian kind, math::BandMatrix& hessian,
+                           std::vector<double>& gradient) override {
+    ContactPart part;
+    sticks_.resize(y.size(), 0);
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      const double now = y[i] + step[i];
+      part.value_mj += law(now) - law(y[i]) - force(y[i]) * step[i];
+      gradient[i] += force(now) - force(y[i]);
+      const bool sticks = k_ * std::abs(now) <= kLimit_n;
+      if (sticks) hessian.lower(static_cast<int>(i), static_cast<int>(i)) += k_;
+      if (!sticks && kind == ContactHessian::majorant)
+        hessian.lower(static_cast<int>(i), static_cast<int>(i)) += kLimit_n / std::abs(now);
+      part.changed = part.changed || sticks != (sticks_[i] != 0);
+      sticks_[i] = static_cast<char>(sticks);
+    }
+    return part;
+  }
+  [[nodiscard]] double energy(const std::vector<double>& at) const override {
+    double sum = QuarticChain::energy(at);
+    for (const double v : at) sum += law(v);
+    return sum;
+  }
+  [[nodiscard]] int sticking() const {
+    int count = 0;
+    for (const double v : y) count += k_ * std::abs(v) <= kLimit_n ? 1 : 0;
+    return count;
+  }
+
+ private:
+  static constexpr double kLimit_n = 0.5;
+  [[nodiscard]] double force(double v) const { return std::clamp(k_ * v, -kLimit_n, kLimit_n); }
+  [[nodiscard]] double law(double v) const {
+    return k_ * std::abs(v) <= kLimit_n ? 0.5 * k_ * v * v : kLimit_n * (std::abs(v) - 0.5 * kLimit_n / k_);
+  }
+  double k_;
+  std::vector<char> sticks_;
+};
+
+// Rounds of the model that do not descend may end where none of what sticks and slides changes any more and yet higher than
+// they began. Breaks when such an end is taken for the minimum: the direction ascends and Newton stalls.
+TEST(Newton, AModelThatRubsIsMinimisedFromAnywhere) {
+  Newton newton;
+  int iterations = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    RubbingChain problem(30, 1e4);
+    test::Random random(seed);
+    for (double& f : problem.f) f = 1.2 * random.normal();
+    for (double& y : problem.y) y = 5e-5 * random.normal();
+    const double before = problem.energy(problem.y);
+    const SolveReport report = newton.minimise(problem, generous());
+    ASSERT_TRUE(report.converged()) << "seed " << seed;
+    iterations += report.iterations;
+    EXPECT_LT(problem.residual(), 1e-6) << "seed " << seed;
+    EXPECT_LE(problem.energy(problem.y), before);
+    EXPECT_GT(problem.sticking(), 0);
+    EXPECT_LT(problem.sticking(), 120);
+  }
+  EXPECT_LT(iterations, 200 * 12);
+}
+
 /// A point pulled along the inside of a round, stiff wall:  E = −f·x + ½ k ⟨|x| − R⟩².  The Hessian is that of a spring, so that
 /// a step is short against the radius; the model sees a flat wall.
 class PointInARoundWall final : public Problem {
@@ -367,8 +455,8 @@ class PointInARoundWall final : public Problem {
     for (std::size_t c = 0; c < 3; ++c) gradient[c] += g[static_cast<Eigen::Index>(c)];
     return energy(x_);
   }
-  ContactPart add_contacts(const std::vector<double>& step, bool /*assumed*/, math::BandMatrix& hessian,
-                           std::vector<double>& gradient) override {
+  ContactPart add_contacts(const std::vector<double>& step, ContactHessian /*kind*/,
+                           math::BandMatrix& hessian, std::vector<double>& gradient) override {
     const Eigen::Vector3d d(step[0], step[1], step[2]);
     const double before = std::max(0.0, x_.norm() - kRadius_mm);
     const double now = std::max(0.0, depth_ + normal_.dot(d));
