@@ -51,6 +51,28 @@ TEST_F(RealVessel, AWireIsPushedIntoADeadEnd) {
   EXPECT_NEAR(run_.max_push_n, 2.0, 1e-6) << "the grip's limit";
 }
 
+// A hand that rests: every step converges, and after a few the wire stays where it is.
+TEST_F(RealVessel, AWireComesToRest) {
+  const test::Vessel* vessel = test::shared_vessel("femoral_to_neuro");
+  if (vessel == nullptr) GTEST_SKIP() << "../shared/vessels/femoral_to_neuro is not here";
+  sim::Simulation simulation(vessel->field, test::hydrophilic_wire(), femoral(), test::lying_patient());
+  constexpr int kSettling = 15;
+  for (int push = 1; push <= 450; ++push) {
+    ASSERT_TRUE(simulation.step({1.0, 0.0}).converged) << push;
+    if (push % 30 != 0) continue;
+    const sim::State moving = simulation.state();
+    for (int rest = 0; rest < kSettling; ++rest)
+      ASSERT_TRUE(simulation.step({0.0, 0.0}).converged) << "rest " << rest << " after " << push;
+    const std::vector<Eigen::Vector3d> settled = simulation.state().joints_mm;
+    for (int rest = 0; rest < 10; ++rest) ASSERT_TRUE(simulation.step({0.0, 0.0}).converged);
+    double wandered_mm = 0.0;
+    for (std::size_t j = 0; j < settled.size(); ++j)
+      wandered_mm = std::max(wandered_mm, (simulation.state().joints_mm[j] - settled[j]).norm());
+    EXPECT_LT(wandered_mm, 0.01) << "after " << push;
+    simulation.restore(moving);
+  }
+}
+
 // Ten millimetres of advance in one command.
 TEST_F(RealVessel, LongCommandsHold) {
   hold("femoral_to_neuro", femoral(), 45, 10.0, 0);

@@ -26,6 +26,12 @@ constexpr double kSameNormal = 0.9986;
 /// The normals of a detection tell of the walls here as long as a sample has moved less.
 constexpr double kStillThere_mm = 0.1;
 constexpr double kRidgeDip_mm = 0.03;
+/// Walls whose heights differ by less make a corner. A wall is not turned by more than this to follow the field: what turns
+/// faster is an edge. Corrections below these leave an equilibrium as it is.
+constexpr double kCorner_mm = 0.05;
+constexpr double kMostTilt = 0.3;
+constexpr double kSameHeight_mm = 2e-4;
+constexpr double kSameSlope = 2e-3;
 /// Renewals of the lagged normal forces after a detection that are taken whole, while the wire still moves; and the relaxation
 /// of those after them.
 constexpr int kFullRenewals = 3;
@@ -89,6 +95,30 @@ WallLine line_for(const Sample& s, double depth_mm, const WallResponse& response
   return {slope, depth_mm - response.force_n / slope, expected_n};
 }
 
+/// The wall that alone touches a sample, null at a corner, where walls are about as near as each other.
+LocalWall* single_wall(Sample& s, const Eigen::Vector3d& u, double nearest_mm) {
+  LocalWall* single = nullptr;
+  for (int k = 0; k < s.walls; ++k) {
+    if (local_height_mm(s.wall[at(k)], u) > nearest_mm + kCorner_mm) continue;
+    if (single != nullptr) return nullptr;
+    single = &s.wall[at(k)];
+  }
+  return single;
+}
+
+/// Gives the wall that a sample touches what the field says there.
+/// @return  whether that changes more than the solution's own accuracy
+bool correct_wall(Sample& s, const Eigen::Vector3d& u, double predicted_mm,
+                  const vessel::WallDistance& actual) {
+  if (s.at_crest) return false;
+  LocalWall* wall = single_wall(s, u, predicted_mm);
+  if (wall == nullptr) return false;
+  const double turn = (actual.gradient - local_height_derivatives(*wall, u).gradient).norm();
+  if (turn > kMostTilt) return false;
+  correct_local_wall(u, actual.distance_mm, actual.gradient, *wall);
+  return std::abs(actual.distance_mm - predicted_mm) > kSameHeight_mm || turn > kSameSlope;
+}
+
 bool reachable(const vessel::Field& field, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   return (reachable_point_mm(field, from, to) - to).norm() < 1e-9;
 }
@@ -109,6 +139,17 @@ bool walls_agree(const Sample& a, const Sample& b) {
 void set_stiffness(Sample& s) {
   s.stiffness_n_per_mm = s.foundation_n_per_mm2 * s.share_mm() + s.tip_cap_n_per_mm;
   s.stick_stiffness_n_per_mm = s.stick_ratio * s.stiffness_n_per_mm;
+  s.anchor_mm = s.traction_n_per_mm * s.share_mm() / s.stick_stiffness_n_per_mm;
+}
+
+/// The stretch that a sample stands for, and with it the force on it, when a part of it goes to another.
+void set_stretch(Sample& s, double from_mm, double to_mm) {
+  const double share = s.share_mm();
+  s.from_mm = from_mm;
+  s.to_mm = to_mm;
+  s.lagged_normal_n *= s.share_mm() / share;
+  s.last_lag_n = 0.0;
+  if (s.walls > 0) set_stiffness(s);
 }
 
 FrictionLaw friction_of(const Sample& s) {
@@ -121,6 +162,20 @@ void ContactSet::reserve(int rods, std::size_t samples) {
   samples_.reserve(samples);
   memory_.reserve(samples);
   start_shape_.reserve(rods);
+  start_arc_mm_.reserve(at(rods + 1));
+}
+
+void ContactSet::fit_rod(int rod, const rod::ChainMaterial& material) {
+  for (auto s = samples_.rbegin(); s != samples_.rend() && s->rod == rod; ++s)
+    s->fraction = (s->arc_mm - material.arc_mm[at(rod)]) / material.length_mm[at(rod)];
+}
+
+/// Where the wire that a sample stands on was in the last converged state: rods may have had other lengths then.
+Eigen::Vector3d ContactSet::start_position_mm(const Sample& s) const {
+  const double from = start_arc_mm_[at(s.rod)];
+  const double fraction = (s.arc_mm - from) / (start_arc_mm_[at(s.rod + 1)] - from);
+  return (1.0 - fraction) * start_shape_.joints_mm[at(s.rod)] +
+         fraction * start_shape_.joints_mm[at(s.rod + 1)];
 }
 
 void ContactSet::place(const Wire& wire, int rods_in_lumen, const vessel::Field& field,
@@ -130,6 +185,7 @@ void ContactSet::place(const Wire& wire, int rods_in_lumen, const vessel::Field&
   samples_.clear();
   memory_.assign(memory);
   start_shape_ = shape;
+  start_arc_mm_.assign(material.arc_mm.begin(), material.arc_mm.end());
   for (int i = 0; i < rods_in_lumen; ++i) {
     const double length = material.length_mm[at(i)];
     const Eigen::Vector3d middle = 0.5 * (shape.joints_mm[at(i)] + shape.joints_mm[at(i + 1)]);
@@ -168,6 +224,7 @@ void detect_sample(const rod::ChainShape& shape, const vessel::Field& field, con
   s.detected_at_mm = slid_point_mm(field, s.detected_at_mm, s.detected_at_mm + way, s.radius_mm);
   s.wrong = false;
   s.fresh = true;
+  s.last_lag_n = 0.0;
   s.closed = {};
   s.closed[0] = s.lagged_normal_n > 0.0;  // what touched before will touch again
   const Eigen::Vector3d tangent = tangent_at(shape, s);
@@ -194,7 +251,7 @@ void ContactSet::move_to_crest(const Wire& wire, const vessel::Field& field, con
   seek_crest(wire, field, spec, s);
   if (s.arc_mm == arc_before) return;
   s.detected_at_mm += s.position_mm(wire.shape) - before;
-  s.start_mm = s.position_mm(start_shape_);
+  s.start_mm = start_position_mm(s);
   s.start_spin_rad = start_shape_.spin_rad[at(s.rod)];
   memory_.recall(hint, s);
 }
@@ -269,13 +326,13 @@ void ContactSet::add_between(const Wire& wire, std::size_t before, double arc_mm
   s.rod = a.rod;
   put_at(wire.line, wire.material, arc_mm, s);
   s.nominal_mm = arc_mm;
-  a.to_mm = s.from_mm = 0.5 * (a.arc_mm + arc_mm);
-  b.from_mm = s.to_mm = 0.5 * (arc_mm + b.arc_mm);
+  s.from_mm = 0.5 * (a.arc_mm + arc_mm);
+  s.to_mm = 0.5 * (arc_mm + b.arc_mm);
+  set_stretch(a, a.from_mm, s.from_mm);
+  set_stretch(b, s.to_mm, b.to_mm);
   a.nominal_mm = std::min(a.nominal_mm, a.to_mm);
   b.nominal_mm = std::max(b.nominal_mm, b.from_mm);
-  set_stiffness(a);
-  set_stiffness(b);
-  s.start_mm = s.position_mm(start_shape_);
+  s.start_mm = start_position_mm(s);
   s.start_spin_rad = start_shape_.spin_rad[at(s.rod)];
   std::size_t hint = 0;
   memory_.recall(hint, s);
@@ -394,6 +451,7 @@ void ContactSet::renew_lagged() {
   double along = 0.0;
   double change = 0.0;
   for (const Sample& s : samples_) {
+    if (s.friction == 0.0) continue;
     const double r = s.normal_n - s.lagged_normal_n;
     along += s.last_lag_n * (r - s.last_lag_n);
     change += (r - s.last_lag_n) * (r - s.last_lag_n);
@@ -410,7 +468,7 @@ void ContactSet::renew_lagged() {
 }
 
 Verification ContactSet::verify(const Wire& wire, const vessel::Field& field, const ContactSpec& spec,
-                                bool rough_field) {
+                                bool rough_field, bool correct) {
   const rod::ChainShape& shape = wire.shape;
   Verification result;
   for (Sample& s : samples_) {
@@ -427,7 +485,8 @@ Verification ContactSet::verify(const Wire& wire, const vessel::Field& field, co
     if (u.norm() < kShortMove_mm || reachable(field, s.detected_at_mm, x)) {
       double predicted = HUGE_VAL;
       for (int k = 0; k < s.walls; ++k) predicted = std::min(predicted, local_height_mm(s.wall[at(k)], u));
-      double actual = field.at(x).distance_mm;
+      const vessel::WallDistance there_is = field.at(x);
+      double actual = there_is.distance_mm;
       if (std::min(actual, predicted) >= s.radius_mm) continue;
       if (s.at_crest && actual > predicted + allowed) {  // the crest has slid along the wire
         Sample there = s;
@@ -435,6 +494,7 @@ Verification ContactSet::verify(const Wire& wire, const vessel::Field& field, co
         actual = field.at(there.position_mm(shape)).distance_mm;
       }
       error = s.walls == 0 ? s.radius_mm - actual : std::abs(actual - predicted);
+      if (correct && error <= allowed && correct_wall(s, u, predicted, there_is)) result.corrected = true;
     }
     result.gap_error_mm = std::max(result.gap_error_mm, error);
     s.wrong = error > allowed;
@@ -457,8 +517,10 @@ void ContactSet::remember(const rod::ChainShape& shape, FrictionMemory& memory) 
   for (const Sample& s : samples_) {
     memory.arc_mm.push_back(s.arc_mm);
     const bool rubs = s.walls > 0 && s.friction > 0.0 && s.lagged_normal_n > 0.0;
-    memory.anchor_mm.push_back(rubs ? friction_anchor(friction_of(s), slip_of(s, shape))
-                                    : Eigen::Vector2d::Zero());
+    const FrictionLaw law = friction_of(s);
+    memory.traction_n_per_mm.push_back(rubs ? Eigen::Vector2d(law.stiffness_n_per_mm / s.share_mm() *
+                                                              friction_anchor(law, slip_of(s, shape)))
+                                            : Eigen::Vector2d::Zero());
     memory.normal_n_per_mm.push_back(s.walls > 0 ? s.normal_n / s.share_mm() : 0.0);
   }
 }

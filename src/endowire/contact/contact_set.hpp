@@ -13,10 +13,11 @@
 
 namespace endowire::contact {
 
-/// Largest disagreement between the local walls and the field, where it matters for contact.
+/// Disagreement between the local walls and the field, where it matters for contact.
 struct Verification {
-  double gap_error_mm = 0.0;
+  double gap_error_mm = 0.0;  ///< the largest
   int wrong_samples = 0;
+  bool corrected = false;  ///< some wall that touches was off by more than rounding of the solution
 };
 
 /// All samples of a wire: one detection, then energies and forces without further detection.
@@ -31,6 +32,10 @@ class ContactSet {
   void place(const Wire& wire, int rods_in_lumen, const vessel::Field& field, const ContactSpec& spec,
              const FrictionMemory& memory);
   void clear() { samples_.clear(); }
+  /// The length of a rod has changed by wire that flows through its end on the hand's side: its samples, which belong to the material, are
+  /// put at their arcs again.
+  /// @param rod  the last one that has samples
+  void fit_rod(int rod, const rod::ChainMaterial& material);
 
   /// Detection: every sample goes to the crest of its stretch, if there is one, and finds the walls around its place in the
   /// shape, reached on a path that crosses no wall.
@@ -64,11 +69,14 @@ class ContactSet {
   /// the last changes suggest.
   void renew_lagged();
 
-  /// Compares the local walls with the field at a shape and marks the samples that are off by more than spec.gap_error_mm.
+  /// Compares the local walls with the field at a shape. Marks the samples that are off by more than spec.gap_error_mm; gives
+  /// the others, where they touch one wall, the height and the slope of the field: an equilibrium that this leaves as it was is
+  /// one of the field itself, wherever detection took place.
   /// @param rough_field  allow the field's own stated error instead: where detections keep contradicting each other at one
   ///                     place, it is the field that is uneven
+  /// @param correct      whether walls may be changed
   [[nodiscard]] Verification verify(const Wire& wire, const vessel::Field& field, const ContactSpec& spec,
-                                    bool rough_field = false);
+                                    bool rough_field = false, bool correct = true);
 
   /// Marks as wrong the samples that moved further from their place of detection than their clearance and `region_mm`.
   int mark_outside(const rod::ChainShape& shape, double region_mm);
@@ -86,10 +94,13 @@ class ContactSet {
                      Sample& sample) const;
 
   std::vector<Sample> samples_;
+  [[nodiscard]] Eigen::Vector3d start_position_mm(const Sample& sample) const;
+
   FrictionMemory memory_;        ///< of the last converged state
   rod::ChainShape start_shape_;  ///< the last converged state
-  int renewals_ = 0;             ///< of lagged normal forces since the detection
-  double relaxation_ = 1.0;      ///< of the last of them
+  std::vector<double> start_arc_mm_;
+  int renewals_ = 0;         ///< of lagged normal forces since the detection
+  double relaxation_ = 1.0;  ///< of the last of them
 };
 
 }  // namespace endowire::contact

@@ -15,7 +15,7 @@ namespace endowire::contact {
 [[nodiscard]] Eigen::Vector3d slid_point_mm(const vessel::Field& field, const Eigen::Vector3d& from_mm,
                                             const Eigen::Vector3d& to_mm, double radius_mm);
 
-/// Finds up to three local walls around sample.detected_at_mm, which must be set and lie in the lumen; where that is nearer to
+/// Finds up to four local walls around sample.detected_at_mm, which must be set and lie in the lumen; where that is nearer to
 /// the wall than the wire's radius, it is lifted to the radius first.
 ///
 /// The nearest wall is a plane; round, where the field a little way off on both sides has the heights and slopes of a circle;

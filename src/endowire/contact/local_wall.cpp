@@ -5,19 +5,36 @@
 
 namespace endowire::contact {
 
+namespace {
+
+double correction_mm(const LocalWall& wall, const Eigen::Vector3d& u) {
+  if (!wall.corrected) return 0.0;
+  const Eigen::Vector3d w = u - wall.corrected_at_mm;
+  return wall.offset_mm + wall.tilt.dot(w) + 0.5 * w.dot(wall.bend_per_mm * w);
+}
+
+void add_correction(const LocalWall& wall, const Eigen::Vector3d& u, LocalHeight& h) {
+  if (!wall.corrected) return;
+  h.value_mm += correction_mm(wall, u);
+  h.gradient += wall.tilt + wall.bend_per_mm * (u - wall.corrected_at_mm);
+  h.hessian += wall.bend_per_mm;
+}
+
+}  // namespace
+
 double local_height_mm(const LocalWall& wall, const Eigen::Vector3d& displacement_mm) {
   const Eigen::Vector3d& u = displacement_mm;
   const double k = wall.first_curvature_per_mm;
   const double a = wall.height_mm + wall.normal.dot(u);
   const double b = wall.first.dot(u);
   const double c = wall.second.dot(u);
+  const double corrected = correction_mm(wall, u) - 0.5 * wall.second_curvature_per_mm * c * c;
   if (wall.ridge) {
     const double other = wall.other_height_mm + wall.other_normal.dot(u);
-    return 0.5 * (a + other + std::hypot(a - other, wall.blend_mm)) -
-           0.5 * wall.second_curvature_per_mm * c * c;
+    return 0.5 * (a + other + std::hypot(a - other, wall.blend_mm)) + corrected;
   }
   const double s = std::hypot(1.0 - k * a, k * b);
-  return (2.0 * a - k * (a * a + b * b)) / (1.0 + s) - 0.5 * wall.second_curvature_per_mm * c * c;
+  return (2.0 * a - k * (a * a + b * b)) / (1.0 + s) + corrected;
 }
 
 namespace {
@@ -32,6 +49,7 @@ LocalHeight ridge_derivatives(const LocalWall& wall, double a, double c, const E
                wall.second_curvature_per_mm * c * wall.second;
   h.hessian = 0.5 * wall.blend_mm * wall.blend_mm / (s * s * s) * difference * difference.transpose() -
               wall.second_curvature_per_mm * wall.second * wall.second.transpose();
+  add_correction(wall, u, h);
   return h;
 }
 
@@ -55,7 +73,28 @@ LocalHeight local_height_derivatives(const LocalWall& wall, const Eigen::Vector3
   const Eigen::Vector3d turning = k * b * wall.normal + p * wall.first;  // tangent of the circle, times s
   h.hessian = -(k / s3) * turning * turning.transpose() -
               wall.second_curvature_per_mm * wall.second * wall.second.transpose();
+  add_correction(wall, u, h);
   return h;
+}
+
+void correct_local_wall(const Eigen::Vector3d& displacement_mm, double height_mm,
+                        const Eigen::Vector3d& gradient, LocalWall& wall) {
+  constexpr double kAlong =
+      0.1;  // cosine between the turn of the wall and the motion, for one to be due to the other
+  constexpr double kLeastMotion_mm = 1e-5;
+  const Eigen::Vector3d& u = displacement_mm;
+  LocalHeight now = local_height_derivatives(wall, u);
+  const Eigen::Vector3d turn = gradient - now.gradient;
+  const Eigen::Vector3d moved = u - wall.corrected_at_mm;
+  const double along = turn.dot(moved);
+  if (wall.corrected) wall.tilt += wall.bend_per_mm * moved;
+  if (wall.corrected && moved.norm() > kLeastMotion_mm && along < -kAlong * turn.norm() * moved.norm())
+    wall.bend_per_mm += turn * turn.transpose() / along;
+  wall.tilt += turn;
+  wall.corrected_at_mm = u;
+  wall.offset_mm = 0.0;
+  wall.corrected = true;
+  wall.offset_mm = height_mm - local_height_mm(wall, u);
 }
 
 }  // namespace endowire::contact

@@ -18,6 +18,8 @@ namespace endowire::contact {
 /// that a wire may run all round a tube. A ridge (a carina, the rim of an ostium, the edge between two facets that stand out)
 /// is the greater of two planes, joined by a hyperbola that passes through the height at the sample: sharp and rounded
 /// ridges alike. The second direction, usually that of the vessel's axis, is second order.
+/// To either, c + t·w + ½ wᵀBw is added, w = u − u₀: the correction by which the wall has the height and the slope of the field
+/// where the sample was last compared with it, at u₀. Zero at detection; set by correct_local_wall().
 /// Symbols    n, n' normals into the lumen, h, h' heights of the two planes at the sample; e₁, e₂ directions of
 ///            principal curvature, w blend of the ridge [mm]
 /// Source     ours; a single plane errs by u²/2R, 0.17 mm for u = 1 mm in a vessel of 3 mm.
@@ -33,6 +35,11 @@ struct LocalWall {
   Eigen::Vector3d other_normal = Eigen::Vector3d::UnitX();
   double other_height_mm = 0.0;
   double blend_mm = 0.0;
+  bool corrected = false;
+  Eigen::Vector3d corrected_at_mm = Eigen::Vector3d::Zero();  ///< u₀
+  double offset_mm = 0.0;                                     ///< c
+  Eigen::Vector3d tilt = Eigen::Vector3d::Zero();             ///< t
+  Eigen::Matrix3d bend_per_mm = Eigen::Matrix3d::Zero();      ///< B
 };
 
 /// Height with its gradient and Hessian by the displacement.
@@ -45,5 +52,13 @@ struct LocalHeight {
 [[nodiscard]] double local_height_mm(const LocalWall& wall, const Eigen::Vector3d& displacement_mm);
 [[nodiscard]] LocalHeight local_height_derivatives(const LocalWall& wall,
                                                    const Eigen::Vector3d& displacement_mm);
+
+/// Gives a wall the height and the gradient that it is found to have at a displacement.
+///
+/// From the second time on a wall that turns faster than it should, and towards the wire, gets the curvature that two gradients
+/// show (the symmetric rank-one secant update): in a shallow crease tilts alone would swing from side to side for ever.
+/// Source  B ← B + rrᵀ/rᵀs, r = y − Bs: [Nocedal2006]
+void correct_local_wall(const Eigen::Vector3d& displacement_mm, double height_mm,
+                        const Eigen::Vector3d& gradient, LocalWall& wall);
 
 }  // namespace endowire::contact

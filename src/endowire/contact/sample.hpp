@@ -49,7 +49,9 @@ struct Sample {
   double start_spin_rad = 0.0;
   Eigen::Vector3d axial = Eigen::Vector3d::UnitX();
   Eigen::Vector3d around = Eigen::Vector3d::UnitY();
-  Eigen::Vector2d anchor_mm = Eigen::Vector2d::Zero();
+  Eigen::Vector2d traction_n_per_mm =
+      Eigen::Vector2d::Zero();  ///< of friction on the wire, as remembered, turned round
+  Eigen::Vector2d anchor_mm = Eigen::Vector2d::Zero();  ///< slip that gives that traction
   double lagged_normal_n = 0.0;
   double last_lag_n = 0.0;  ///< by which the normal force missed the lagged one at its last renewal
 

@@ -22,10 +22,6 @@ double turn_about(const Eigen::Vector3d& axis, const Eigen::Vector3d& tangent, d
   return angle + 2.0 * M_PI * std::round((near_rad - angle) / (2.0 * M_PI));
 }
 
-double grip_energy(const contact::FrictionLaw& law, double displacement) {
-  return contact::friction_energy_mj(law, {displacement, 0.0});
-}
-
 }  // namespace
 
 void ChainProblem::reserve(int rods, std::size_t samples) {
@@ -64,20 +60,9 @@ void ChainProblem::clamp_hand_end() {
   hold_spin(n - 1);
 }
 
-void ChainProblem::fit_sheath_rod(double inserted_mm) {
-  ENDOWIRE_EXPECTS(line != nullptr, "a feed needs the wire it feeds");
-  const int n = shape.rods();
-  const double arc = material.arc_mm[at(n - 1)];
-  const double half = inserted_mm - arc;
-  material.arc_mm[at(n)] = inserted_mm + half;
-  material.length_mm[at(n - 1)] = 2.0 * half;
-  material.stretch_n_per_mm[at(n - 1)] = 0.0;
-  material.weight_n[at(n - 1)] = 0.0;
-  material.weight_n[at(n)] = 0.0;
-  rod::JointMaterial& joint = material.joints[at(n - 1)];
-  const double from = arc - 0.5 * material.length_mm[at(n - 2)];
-  joint.span_mm = inserted_mm - from;
-  joint.rest_bend_rad = line->rest_bend_rad(from, inserted_mm);
+void ChainProblem::fit_entering(double inserted_mm) {
+  fit_entering_rod(*line, inserted_mm, material);
+  contact.fit_rod(shape.rods() - 2, material);
 }
 
 double ChainProblem::potential(const rod::ChainShape& at_shape) {
@@ -95,10 +80,7 @@ double ChainProblem::potential(const rod::ChainShape& at_shape) {
 }
 
 double ChainProblem::energy_mj() {
-  double energy = potential(shape);
-  if (feed.active)
-    energy += grip_energy(feed.push, feed.stretch_mm) + grip_energy(feed.torque, feed.twist_rad);
-  return energy;
+  return potential(shape) + (feed.active ? grip_energy_mj(feed) : 0.0);
 }
 
 double ChainProblem::add_loads(math::BandMatrix& hessian, std::vector<double>& gradient) const {
@@ -131,68 +113,6 @@ double ChainProblem::add_loads(math::BandMatrix& hessian, std::vector<double>& g
   return energy - m * turn_about(loads.tip_moment_axis, e, moment_turn_);
 }
 
-/// Turns the axes of the last free joint so that its first unknown is the motion along the sheath; the others are held.
-void ChainProblem::onto_sheath_line(math::BandMatrix& hessian, std::vector<double>& gradient) const {
-  const int first = 4 * (shape.rods() - 1);
-  const Eigen::Vector3d& d = feed.direction;
-  double along = 0.0;
-  for (int c = 0; c < 3; ++c) along += d[c] * gradient[at(first + c)];
-  gradient[at(first)] = along;
-  for (int column = std::max(0, first - 8); column < first; ++column) {
-    double sum = 0.0;
-    for (int c = 0; c < 3; ++c) {
-      if (first + c - column <= math::BandMatrix::kHalfBandwidth)
-        sum += d[c] * hessian.lower(first + c, column);
-    }
-    hessian.lower(first, column) = sum;
-  }
-  double diagonal = 0.0;
-  double spin = 0.0;
-  for (int r = 0; r < 3; ++r) {
-    spin += d[r] * hessian.lower(first + 3, first + r);
-    for (int c = 0; c < 3; ++c)
-      diagonal += d[r] * d[c] * hessian.lower(first + std::max(r, c), first + std::min(r, c));
-  }
-  hessian.lower(first, first) = diagonal;
-  hessian.lower(first + 3, first) = spin;
-}
-
-double ChainProblem::add_feed(math::BandMatrix& hessian, std::vector<double>& gradient) {
-  const int n = shape.rods();
-  const int u = 4 * (n - 1);
-  onto_sheath_line(hessian, gradient);
-
-  // The span and the rest bend of the joint at the sheath grow with the wire that enters:
-  //   ∂E/∂L = −E/l̄ + ∂E/∂κ̄ · κ0,  the configurational force of a sliding sleeve [Bigoni2015].
-  rod::JointMaterial joint = material.joints[at(n - 1)];
-  joint.kink_per_mm =
-      std::numeric_limits<double>::infinity();  // its law is taken at the span of the base state
-  rod::JointDerivatives d;
-  rod::joint_derivatives(joint, shape.frames[at(n - 1)], shape.frames[at(n - 2)], shape.twist_rad[at(n - 1)],
-                         d, true);
-  const Eigen::Vector2d k0 = line->rest_curvature_per_mm(feed.inserted_mm);
-  const double span = joint.span_mm;
-  const double rest = d.rest_gradient.dot(k0);
-  gradient[at(u)] += rest - d.energy_mj / span;
-  hessian.lower(u, u) += 2.0 * d.energy_mj / (span * span) - 2.0 * rest / span +
-                         k0.dot(joint.bend_n_mm2.cwiseProduct(k0)) / span;
-  const rod::Turns mixed = d.rest_turn.transpose() * k0 - d.gradient / span;
-  const Eigen::Vector3d t = shape.joints_mm[at(n - 2)] - shape.joints_mm[at(n - 1)];
-  const Eigen::Vector3d tip = shape.frames[at(n - 2)].leftCols<2>() * mixed.segment<2>(3) / t.norm();
-  for (int c = 0; c < 3; ++c) hessian.lower(u, u - 4 + c) += tip[c];
-  hessian.lower(u, u - 1) += mixed[5];
-  hessian.lower(u, u) -= 2.0 * tip.dot(feed.direction);
-  hessian.lower(u + 3, u) += mixed[2];
-
-  const auto push = contact::friction_response(feed.push, {feed.stretch_mm, 0.0});
-  const auto torque = contact::friction_response(feed.torque, {feed.twist_rad, 0.0});
-  gradient[at(u)] -= push.force_n[0];
-  hessian.lower(u, u) += push.stiffness_n_per_mm(0, 0);
-  gradient[at(u + 3)] -= torque.force_n[0];
-  hessian.lower(u + 3, u + 3) += torque.stiffness_n_per_mm(0, 0);
-  return push.energy_mj + torque.energy_mj;
-}
-
 double ChainProblem::linearise(math::BandMatrix& hessian, std::vector<double>& gradient) {
   double energy = rod::add_joint_derivatives(material, shape, hessian, gradient);
   if (loads.tip_moment_n_mm != 0.0) {
@@ -200,34 +120,38 @@ double ChainProblem::linearise(math::BandMatrix& hessian, std::vector<double>& g
   }
   energy += add_loads(hessian, gradient);
   contact_gradient_.assign(gradient.size(), 0.0);
-  contact_energy_ = contact.linearise(shape, {}, hessian, contact_gradient_, model_);
+  contact_energy_ = contact.linearise(shape, guided(), hessian, contact_gradient_, model_);
   energy += contact_energy_;
   for (std::size_t i = 0; i < gradient.size(); ++i) gradient[i] += contact_gradient_[i];
   rod::geometric_force_n(material, shape, gradient, held, scratch_, geometric_force_);
   energy += rod::add_stretch_derivatives(material, shape, geometric_force_, hessian, gradient);
-  if (feed.active) energy += add_feed(hessian, gradient);
   hold(hessian, gradient);
   if (feed.active) {
-    double* joint = contact_gradient_.data() + 4 * (shape.rods() - 1);
-    joint[0] = feed.direction.dot(Eigen::Vector3d(joint[0], joint[1], joint[2]));
+    const int u = feed_unknown();
+    hessian.fix(u);
+    hessian.lower(u, u) = 0.0;
+    gradient[at(u)] = contact_gradient_[at(u)];
+    energy += add_feed_derivatives(feed, *line, material, shape, hessian, gradient);
   }
   measure_scales();
   return energy;
 }
 
 contact::GuidedJoint ChainProblem::guided() const {
-  return feed.active ? contact::GuidedJoint{shape.rods() - 1, feed.direction} : contact::GuidedJoint{};
+  // The wire that enters moves along the entering rod.
+  const int n = shape.rods();
+  return feed.active ? contact::GuidedJoint{n - 1, shape.frames[at(n - 2)].col(2)} : contact::GuidedJoint{};
 }
 
 void ChainProblem::hold(math::BandMatrix& hessian, std::vector<double>& gradient) const {
   for (int i = 0; i < unknowns(); ++i) {
-    if (!held[at(i)]) continue;
+    if (!held[at(i)] || i == feed_unknown()) continue;
     hessian.fix(i);
     gradient[at(i)] = 0.0;
   }
 }
 
-solve::ContactPart ChainProblem::add_contacts(const std::vector<double>& step, bool assumed,
+solve::ContactPart ChainProblem::add_contacts(const std::vector<double>& step, solve::ContactHessian kind,
                                               math::BandMatrix& hessian, std::vector<double>& gradient) {
   if (model_.empty()) return {};
   double known = contact_energy_;
@@ -235,7 +159,7 @@ solve::ContactPart ChainProblem::add_contacts(const std::vector<double>& step, b
     gradient[i] -= contact_gradient_[i];
     known += contact_gradient_[i] * step[i];
   }
-  const contact::ModelPart part = model_.add_derivatives(step, assumed, guided(), hessian, gradient);
+  const contact::ModelPart part = model_.add_derivatives(step, kind, guided(), hessian, gradient);
   hold(hessian, gradient);
   return {part.energy_mj - known, part.changed};
 }
@@ -250,38 +174,22 @@ solve::Validity ChainProblem::check() {
   return checker ? checker() : solve::Problem::check();
 }
 
-/// Unknowns as displacements of the joints: at the sheath, the one motion along it moves both of its joints.
-void ChainProblem::to_cartesian(const std::vector<double>& direction) {
-  cartesian_.assign(direction.begin(), direction.end());
-  if (!feed.active) return;
-  const int n = shape.rods();
-  const double u = direction[at(4 * (n - 1))];
-  for (int c = 0; c < 3; ++c) {
-    cartesian_[at(4 * (n - 1) + c)] = u * feed.direction[c];
-    cartesian_[at(4 * n + c)] = -u * feed.direction[c];
-  }
-}
-
 double ChainProblem::try_step(const std::vector<double>& direction, double alpha) {
-  const int n = shape.rods();
-  to_cartesian(direction);
-  trial_feed_ = feed;
-  if (feed.active) {
-    const double u = direction[at(4 * (n - 1))];
-    const double spin = direction[at(4 * (n - 1) + 3)];
-    trial_feed_.inserted_mm += alpha * u;
-    trial_feed_.stretch_mm -= alpha * u;
-    trial_feed_.twist_rad -= alpha * spin;
-    const double half = trial_feed_.inserted_mm - material.arc_mm[at(n - 1)];
-    if (!(half > 0.0)) return std::numeric_limits<double>::infinity();
-  }
+  cartesian_.assign(direction.begin(), direction.end());
+  if (feed.active) cartesian_[at(feed_unknown())] = 0.0;
   if (!rod::retract(shape, cartesian_, alpha, {held[0] != 0, held[1] != 0, held[2] != 0}, trial_)) {
     return std::numeric_limits<double>::infinity();
   }
   if (!feed.active) return potential(trial_);
-  fit_sheath_rod(trial_feed_.inserted_mm);
-  return potential(trial_) + grip_energy(trial_feed_.push, trial_feed_.stretch_mm) +
-         grip_energy(trial_feed_.torque, trial_feed_.twist_rad);
+  const double fed = alpha * direction[at(feed_unknown())];
+  trial_feed_ = feed;
+  trial_feed_.inserted_mm += fed;
+  trial_feed_.stretch_mm -= fed;
+  trial_feed_.twist_rad -= alpha * direction[at(feed_unknown() + 3)];
+  if (!(trial_feed_.inserted_mm > material.arc_mm[at(shape.rods() - 2)]))
+    return std::numeric_limits<double>::infinity();
+  fit_entering(trial_feed_.inserted_mm);
+  return potential(trial_) + grip_energy_mj(trial_feed_);
 }
 
 void ChainProblem::accept_step() {

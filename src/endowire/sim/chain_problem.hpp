@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "endowire/contact/contact_set.hpp"
-#include "endowire/contact/friction.hpp"
 #include "endowire/rod/chain.hpp"
+#include "endowire/sim/feed.hpp"
 #include "endowire/solve/newton.hpp"
 
 namespace endowire::sim {
@@ -21,21 +21,6 @@ struct Loads {
   /// Domain: the tangent stays normal to the axis (plane problems).
   Eigen::Vector3d tip_moment_axis = Eigen::Vector3d::UnitZ();
   double tip_moment_n_mm = 0.0;
-};
-
-/// The hand at the end of the sheath: the last two joints lie on the line of the sheath, symmetric about its end, so that
-/// position and tangent are held at the middle of that rod. Along the line and about it the wire hangs on
-/// the hand by a stiff spring that slips at the grip's limit: F_max|δ| with δ the slip, both unknowns of the
-/// same minimisation as the shape.
-struct Feed {
-  bool active = false;
-  Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
-  double inserted_mm = 0.0;     ///< length beyond the sheath in the base state
-  contact::FrictionLaw push;    ///< [N/mm], [N]
-  contact::FrictionLaw torque;  ///< [N·mm/rad], [N·mm]
-  double stretch_mm = 0.0;      ///< hand ahead of wire in the base state: pushes
-  double twist_rad = 0.0;       ///< hand ahead of wire in the base state: turns it
 };
 
 /// A chain of rods with its loads, ends, contacts and hand, as a problem to minimise:
@@ -62,13 +47,13 @@ class ChainProblem final : public solve::Problem {
   /// Holds the last rod: a clamp at its middle.
   void clamp_hand_end();
 
-  /// Adapts the rod at the sheath to feed.inserted_mm: its length, span and rest bend.
-  void fit_sheath_rod(double inserted_mm);
+  /// Gives the entering rod its length, and what hangs on it, for a feed with so much wire inserted.
+  void fit_entering(double inserted_mm);
 
   [[nodiscard]] int unknowns() const override { return 4 * (shape.rods() + 1); }
   double linearise(math::BandMatrix& hessian, std::vector<double>& gradient) override;
-  solve::ContactPart add_contacts(const std::vector<double>& step, bool assumed, math::BandMatrix& hessian,
-                                  std::vector<double>& gradient) override;
+  solve::ContactPart add_contacts(const std::vector<double>& step, solve::ContactHessian kind,
+                                  math::BandMatrix& hessian, std::vector<double>& gradient) override;
   bool correct_contacts(const std::vector<double>& step) override;
   double try_step(const std::vector<double>& direction, double alpha) override;
   void accept_step() override;
@@ -92,8 +77,7 @@ class ChainProblem final : public solve::Problem {
  private:
   [[nodiscard]] double potential(const rod::ChainShape& at);
   double add_loads(math::BandMatrix& hessian, std::vector<double>& gradient) const;
-  double add_feed(math::BandMatrix& hessian, std::vector<double>& gradient);
-  void onto_sheath_line(math::BandMatrix& hessian, std::vector<double>& gradient) const;
+  [[nodiscard]] int feed_unknown() const { return feed.active ? 4 * (shape.rods() - 1) : -1; }
   void hold(math::BandMatrix& hessian, std::vector<double>& gradient) const;
   [[nodiscard]] contact::GuidedJoint guided() const;
   void to_cartesian(const std::vector<double>& direction);

@@ -39,21 +39,28 @@ void transport_frames(rod::ChainShape& shape) {
   }
 }
 
+/// Drift at an arc, linear between the joints that had one; none in wire that was in the sheath.
+Eigen::Vector3d drift_at(const Drift& drift, double arc_mm, std::size_t& k) {
+  const std::size_t last = drift.arc_mm.size() - 1;
+  if (arc_mm > drift.arc_mm[last]) return Eigen::Vector3d::Zero();
+  while (k + 1 < last && arc_mm > drift.arc_mm[k + 1]) ++k;
+  if (k == last) return drift.joints_mm[k];
+  const double share = (arc_mm - drift.arc_mm[k]) / (drift.arc_mm[k + 1] - drift.arc_mm[k]);
+  return drift.joints_mm[k] + share * (drift.joints_mm[k + 1] - drift.joints_mm[k]);
+}
+
 }  // namespace
 
-void follow_trace(const rod::ChainMaterial& material, const Eigen::Vector3d& sheath_point,
-                  const Eigen::Vector3d& sheath_direction, const HandStep& hand, rod::ChainShape& shape,
+void follow_trace(const rod::ChainMaterial& material, const HandStep& hand, rod::ChainShape& shape,
                   std::vector<Eigen::Vector3d>& trace) {
   const int n = shape.rods();
   trace.assign(shape.joints_mm.begin(), shape.joints_mm.end());
-  const double half = hand.inserted_mm - material.arc_mm[at(n - 1)];
-  shape.joints_mm[at(n - 1)] = sheath_point + half * sheath_direction;
-  shape.joints_mm[at(n)] = sheath_point - half * sheath_direction;
-  // The polyline is parametrised as it was before the advance: the sheath rod was shorter by the advance on each side.
-  int rod = n - 1;
-  Eigen::Vector3d old_hand = point_at(material, trace, material.arc_mm[at(n - 1)] - hand.advance_mm, rod);
+  const double entering = material.arc_mm[at(n - 1)] - material.arc_mm[at(n - 2)];
+  int rod = n - 2;
+  Eigen::Vector3d old_hand = trace[at(n - 1)];
   for (int i = n - 2; i >= 0; --i) {
-    const double length = (trace[at(i)] - trace[at(i + 1)]).norm();
+    double length = (trace[at(i)] - trace[at(i + 1)]).norm();
+    if (i == n - 2) length *= (entering + hand.advance_mm) / entering;
     const Eigen::Vector3d old_tip = point_at(material, trace, material.arc_mm[at(i)] - hand.advance_mm, rod);
     shape.joints_mm[at(i)] = shape.joints_mm[at(i + 1)] + length * (old_tip - old_hand).normalized();
     old_hand = old_tip;
@@ -70,17 +77,17 @@ double predicted_slip_mm(const Drift& drift, double advance_mm) {
   return advance_mm * std::clamp(drift.slip_mm / drift.advance_mm, 0.0, 1.0);
 }
 
-void follow_drift(const Drift& drift, double advance_mm, rod::ChainShape& shape,
-                  std::vector<Eigen::Vector3d>& scratch) {
+void follow_drift(const Drift& drift, const rod::ChainMaterial& material, double advance_mm,
+                  rod::ChainShape& shape, std::vector<Eigen::Vector3d>& scratch) {
   constexpr double kMostOften = 2.0;  // further ahead than twice the last step its drift tells nothing
-  if (!(drift.advance_mm * advance_mm > 0.0)) return;
+  if (!(drift.advance_mm * advance_mm > 0.0) || drift.joints_mm.empty()) return;
   const double ratio = std::min(kMostOften, advance_mm / drift.advance_mm);
   const int n = shape.rods();
-  const int moved = std::min(n - 1, static_cast<int>(drift.joints_mm.size()));
   scratch.assign(shape.joints_mm.begin(), shape.joints_mm.end());
-  for (int i = 0; i < moved; ++i) scratch[at(i)] += ratio * drift.joints_mm[at(i)];
-  double length = moved > 0 ? (shape.joints_mm[at(moved - 1)] - shape.joints_mm[at(moved)]).norm() : 0.0;
-  for (int i = moved - 1; i >= 0; --i) {
+  std::size_t k = 0;
+  for (int i = 0; i < n - 1; ++i) scratch[at(i)] += ratio * drift_at(drift, material.arc_mm[at(i)], k);
+  double length = (shape.joints_mm[at(n - 2)] - shape.joints_mm[at(n - 1)]).norm();
+  for (int i = n - 2; i >= 0; --i) {
     const double next = i > 0 ? (shape.joints_mm[at(i - 1)] - shape.joints_mm[at(i)]).norm() : 0.0;
     shape.joints_mm[at(i)] =
         shape.joints_mm[at(i + 1)] + length * (scratch[at(i)] - scratch[at(i + 1)]).normalized();

@@ -6,6 +6,7 @@
 
 #include "endowire/base/error.hpp"
 #include "endowire/math/transport.hpp"
+#include "endowire/rod/remesh.hpp"
 #include "endowire/sim/chain_problem.hpp"
 #include "endowire/sim/grid.hpp"
 #include "endowire/sim/measure.hpp"
@@ -20,13 +21,14 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-/// A joint enters when it is this far beyond the sheath, and leaves when it would be nearer than half of that: the rod at
-/// the sheath, twice as long, never gets so short that its stiffness spoils the matrix.
+/// A joint enters when it is this far beyond the sheath, and leaves when it would be nearer than half of that: the entering rod never
+/// gets so short that its stiffness spoils the matrix.
 constexpr double kEntry_mm = 1.0;
 constexpr double kLeave_mm = 0.5;
 /// Largest turn of the unloaded wire at one joint: pre-curved tips get shorter rods.
 constexpr double kMaxBias_rad = 0.15;
-/// A joint that moves this far from its prediction within one step has snapped.
+/// A joint has snapped that is so far, after one sub-step, both off the trace of the wire before it and from where its motion of
+/// the step before would have taken it.
 constexpr double kSnap_mm = 1.5;
 /// Local walls hold this far around the place of detection; a state beyond is detected anew.
 constexpr double kRegion_mm = 0.8;
@@ -38,6 +40,8 @@ constexpr double kCheck_mm = 0.05;
 constexpr double kMaxStep_mm = 0.7;
 /// Detections within one sub-step: a snap crosses the lumen in pieces of kRegion_mm.
 constexpr int kMaxDetections = 100;
+/// Corrections of touching walls within one sub-step: where the field has an edge, they need not come to rest.
+constexpr int kMaxCorrections = 12;
 /// From this one on the field's own error is allowed.
 constexpr int kUnevenFrom = 12;
 constexpr double kStandardGravity_floor = 1e-12;
@@ -61,6 +65,7 @@ class Simulation::Impl {
 
   const StepReport& step(const Command& command);
   void restore(const State& state);
+  void check_state(const State& state) const;
   void save(State& out) const;
   void snapshot(Snapshot& out) const;
   void waypoint(int index, Snapshot& out) const;
@@ -74,18 +79,16 @@ class Simulation::Impl {
   bool advance_once(const Command& command);
   bool settle();
   solve::Validity check_walls();
+  void redetect();
   void keep_waypoint();
   [[nodiscard]] bool lies_clear() const;
   void enter(double inserted_mm, double turn_rad);
   void adapt_sheath(double inserted_mm);
-  void insert_joint();
-  void remove_joint();
-  void prepare_material(double inserted_mm);
+  void prepare_material(int first);
   void finish(const Command& command);
   void measure();
   [[nodiscard]] contact::Wire wire() const { return {line_, problem_.material, problem_.shape}; }
   [[nodiscard]] bool in_sheath() const { return problem_.shape.rods() == 0; }
-  [[nodiscard]] double first_inside_mm() const { return grid_[1] + kEntry_mm; }
 
   std::shared_ptr<const vessel::Field> field_;
   rod::MaterialLine line_;
@@ -100,7 +103,8 @@ class Simulation::Impl {
   solve::Newton newton_;
   contact::FrictionMemory friction_;
   double hand_turn_rad_ = 0.0;
-  int rounds_ = 0;  ///< detections of single samples since the detection of all
+  int rounds_ = 0;       ///< detections of single samples since the detection of all
+  int corrections_ = 0;  ///< of walls that touch, since then
   std::vector<Eigen::Vector3d> trace_;
   Drift drift_;
   std::vector<Eigen::Vector3d> traced_;  ///< the trace of the present step, without drift
@@ -171,6 +175,7 @@ Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrume
   trace_.reserve(at(joints + 1));
   for (auto* list : {&predicted_, &traced_, &drift_.joints_mm, &state_.drift.joints_mm})
     list->reserve(at(joints + 1));
+  for (auto* list : {&drift_.arc_mm, &state_.drift.arc_mm, &state_.arc_mm}) list->reserve(at(joints));
   waypoints_.reserve(at(joints + 1));
   report_.events.reserve(16);
   state_.joints_mm.reserve(at(joints + 1));
@@ -187,26 +192,59 @@ void Simulation::Impl::save(State& out) const {
   out.grip_stretch_mm = problem_.feed.stretch_mm;
   out.grip_twist_rad = problem_.feed.twist_rad;
   out.joints_mm.assign(shape.joints_mm.begin(), shape.joints_mm.end());
+  const std::vector<double>& arcs = problem_.material.arc_mm;
+  out.arc_mm.assign(arcs.begin(), arcs.begin() + std::max(0, shape.rods() - 1));
   out.directors.resize(shape.frames.size());
   for (std::size_t i = 0; i < shape.frames.size(); ++i) out.directors[i] = shape.frames[i].col(0);
   out.spin_rad.assign(shape.spin_rad.begin(), shape.spin_rad.end());
   out.twist_rad.assign(shape.twist_rad.begin(), shape.twist_rad.end());
   out.drift.advance_mm = drift_.advance_mm;
   out.drift.slip_mm = drift_.slip_mm;
+  out.drift.arc_mm.assign(drift_.arc_mm.begin(), drift_.arc_mm.end());
   out.drift.joints_mm.assign(drift_.joints_mm.begin(), drift_.joints_mm.end());
   out.friction.arc_mm.assign(friction_.arc_mm.begin(), friction_.arc_mm.end());
-  out.friction.anchor_mm.assign(friction_.anchor_mm.begin(), friction_.anchor_mm.end());
+  out.friction.traction_n_per_mm.assign(friction_.traction_n_per_mm.begin(),
+                                        friction_.traction_n_per_mm.end());
   out.friction.normal_n_per_mm.assign(friction_.normal_n_per_mm.begin(), friction_.normal_n_per_mm.end());
 }
 
-void Simulation::Impl::restore(const State& state) {
+namespace {
+
+bool ascending(const std::vector<double>& arcs) {
+  return std::adjacent_find(arcs.begin(), arcs.end(), [](double a, double b) { return !(a <= b); }) ==
+         arcs.end();
+}
+
+}  // namespace
+
+/// Throws InputError unless lists belong together and to this instrument.
+void Simulation::Impl::check_state(const State& state) const {
   const std::size_t rods = state.directors.size();
-  const bool consistent = rods == 0 ? state.joints_mm.empty()
-                                    : state.joints_mm.size() == rods + 1 && state.spin_rad.size() == rods &&
-                                          state.twist_rad.size() == rods + 1 && rods >= 2 &&
-                                          rods < grid_.size() + 1;
-  if (!consistent)
-    refuse("state: sizes of joints, directors, spin and twist do not belong together or to this instrument");
+  const bool chain = rods == 0 ? state.joints_mm.empty() && state.arc_mm.empty()
+                               : rods >= 2 && rods <= grid_.size() && state.joints_mm.size() == rods + 1 &&
+                                     state.arc_mm.size() == rods - 1 && state.arc_mm[0] == 0.0 &&
+                                     state.spin_rad.size() == rods && state.twist_rad.size() == rods + 1;
+  if (!chain || !ascending(state.arc_mm)) {
+    refuse(
+        "state: sizes of joints, arcs, directors, spin and twist do not belong together or to this "
+        "instrument, or arcs do not ascend");
+  }
+  const contact::FrictionMemory& friction = state.friction;
+  if (friction.traction_n_per_mm.size() != friction.arc_mm.size() ||
+      friction.normal_n_per_mm.size() != friction.arc_mm.size() ||
+      friction.arc_mm.size() > friction_.arc_mm.capacity() || !ascending(friction.arc_mm)) {
+    refuse(
+        "state.friction: its lists must be equally long, not too long for this instrument, and arcs ascend");
+  }
+  if (state.drift.joints_mm.size() != state.drift.arc_mm.size() || state.drift.arc_mm.size() > grid_.size() ||
+      !ascending(state.drift.arc_mm)) {
+    refuse("state.drift: its lists must be equally long, not too long for this instrument, and arcs ascend");
+  }
+}
+
+void Simulation::Impl::restore(const State& state) {
+  check_state(state);
+  const std::size_t rods = state.directors.size();
   if (&state != &state_) state_ = state;
   rod::ChainShape& shape = problem_.shape;
   hand_turn_rad_ = state.hand_turn_rad;
@@ -229,37 +267,39 @@ void Simulation::Impl::restore(const State& state) {
       shape.frames[i].col(1) = e.cross(state.directors[i]);
       shape.frames[i].col(2) = e;
     }
-    prepare_material(state.inserted_mm);
+    problem_.material.resize(static_cast<int>(rods));
+    std::copy(state.arc_mm.begin(), state.arc_mm.end(), problem_.material.arc_mm.begin());
+    prepare_material(0);
   }
   drift_.advance_mm = state.drift.advance_mm;
   drift_.slip_mm = state.drift.slip_mm;
+  drift_.arc_mm.assign(state.drift.arc_mm.begin(), state.drift.arc_mm.end());
   drift_.joints_mm.assign(state.drift.joints_mm.begin(), state.drift.joints_mm.end());
   friction_.arc_mm.assign(state.friction.arc_mm.begin(), state.friction.arc_mm.end());
-  friction_.anchor_mm.assign(state.friction.anchor_mm.begin(), state.friction.anchor_mm.end());
+  friction_.traction_n_per_mm.assign(state.friction.traction_n_per_mm.begin(),
+                                     state.friction.traction_n_per_mm.end());
   friction_.normal_n_per_mm.assign(state.friction.normal_n_per_mm.begin(),
                                    state.friction.normal_n_per_mm.end());
   problem_.contact.clear();
 }
 
-/// Material of the present joints, with the wire inserted so far.
-void Simulation::Impl::prepare_material(double inserted_mm) {
-  const int n = problem_.shape.rods();
+/// Material of the joints from `first` on, and of the entering rod with the wire inserted so far.
+void Simulation::Impl::prepare_material(int first) {
   rod::ChainMaterial& material = problem_.material;
-  material.resize(n);
-  for (int j = 0; j < n; ++j) material.arc_mm[at(j)] = grid_[at(j)];
-  material.arc_mm[at(n)] = 2.0 * inserted_mm - grid_[at(n - 1)];
-  rod::fill_material_from(line_, 0, gravity_m_per_s2_, spec_.blood_density_g_per_mm3, material);
-  problem_.fit_sheath_rod(inserted_mm);
+  const double inserted = problem_.feed.inserted_mm;
+  material.arc_mm[at(material.rods() - 1)] = inserted;
+  material.arc_mm[at(material.rods())] = inserted + kSheathRod_mm;
+  rod::fill_material_from(line_, first, gravity_m_per_s2_, spec_.blood_density_g_per_mm3, material);
+  problem_.fit_entering(inserted);
 }
 
-/// The tip comes out of the sheath: the two first rods, straight.
+/// The tip comes out of the sheath, straight.
 void Simulation::Impl::enter(double inserted_mm, double turn_rad) {
   rod::ChainShape& shape = problem_.shape;
   shape.resize(2);
-  for (int j = 0; j < 2; ++j) {
-    shape.joints_mm[at(j)] = access_.position_mm + (inserted_mm - grid_[at(j)]) * access_.direction;
-  }
-  shape.joints_mm[2] = access_.position_mm - (inserted_mm - grid_[1]) * access_.direction;
+  shape.joints_mm[0] = access_.position_mm + inserted_mm * access_.direction;
+  shape.joints_mm[1] = access_.position_mm;
+  shape.joints_mm[2] = access_.position_mm - kSheathRod_mm * access_.direction;
   const Eigen::Vector3d m1 =
       math::spin_about(math::any_normal(access_.direction), access_.direction, turn_rad);
   for (int i = 0; i < 2; ++i) {
@@ -270,69 +310,27 @@ void Simulation::Impl::enter(double inserted_mm, double turn_rad) {
   }
   std::fill(shape.twist_rad.begin(), shape.twist_rad.end(), 0.0);
   problem_.feed.inserted_mm = inserted_mm;
-  prepare_material(inserted_mm);
+  problem_.material.resize(2);
+  problem_.material.arc_mm[0] = 0.0;
+  prepare_material(0);
 }
 
-/// A joint enters: it divides the rod at the sheath, which is straight, and takes its share of the twist there.
-void Simulation::Impl::insert_joint() {
-  rod::ChainShape& shape = problem_.shape;
-  const int n = shape.rods();
-  const double inserted = problem_.feed.inserted_mm;
-  const double half = inserted - grid_[at(n)];
-  const double span_before = problem_.material.joints[at(n - 1)].span_mm;
-  const double span_sheath = half + 0.5 * (grid_[at(n)] - grid_[at(n - 1)]);
-  const double twist = shape.twist_rad[at(n - 1)];
-  const double at_sheath = twist * span_sheath / span_before;
-  shape.resize(n + 1);
-  shape.joints_mm[at(n)] = access_.position_mm + half * access_.direction;
-  shape.joints_mm[at(n + 1)] = access_.position_mm - half * access_.direction;
-  shape.frames[at(n)] = shape.frames[at(n - 1)];
-  shape.spin_rad[at(n)] = shape.spin_rad[at(n - 1)];
-  rod::Frame& freed = shape.frames[at(n - 1)];
-  freed.col(0) = math::spin_about(freed.col(0), freed.col(2), at_sheath);
-  freed.col(1) = freed.col(2).cross(freed.col(0));
-  shape.spin_rad[at(n - 1)] += at_sheath;
-  shape.twist_rad[at(n - 1)] = twist - at_sheath;
-  shape.twist_rad[at(n)] = at_sheath;
-  prepare_material(inserted);
-}
-
-/// The joint nearest to the sheath leaves: the rod beyond it is laid on the line of the sheath.
-void Simulation::Impl::remove_joint() {
-  rod::ChainShape& shape = problem_.shape;
-  const int n = shape.rods();
-  const double half = problem_.feed.inserted_mm - grid_[at(n - 2)];
-  const rod::Frame sheath = shape.frames[at(n - 1)];
-  const double twist = shape.twist_rad[at(n - 1)] + shape.twist_rad[at(n - 2)];
-  const double spin = shape.spin_rad[at(n - 1)];
-  shape.resize(n - 1);
-  shape.joints_mm[at(n - 2)] = access_.position_mm + half * access_.direction;
-  shape.joints_mm[at(n - 1)] = access_.position_mm - half * access_.direction;
-  shape.frames[at(n - 2)] = sheath;
-  shape.spin_rad[at(n - 2)] = spin;
-  shape.twist_rad[at(n - 1)] = 0.0;
-  shape.twist_rad[at(n - 2)] = 0.0;
-  if (n > 2) {
-    rod::Frame& next = shape.frames[at(n - 3)];
-    const Eigen::Vector3d e = (shape.joints_mm[at(n - 3)] - shape.joints_mm[at(n - 2)]).normalized();
-    const Eigen::Vector3d m1 = math::normal_part(math::parallel_transport(next.col(0), next.col(2), e), e);
-    next.col(0) = m1;
-    next.col(1) = e.cross(m1);
-    next.col(2) = e;
-    shape.twist_rad[at(n - 2)] = rod::twist_between(sheath, next, twist);
-  }
-  prepare_material(problem_.feed.inserted_mm);
-}
-
-/// Joints enter or leave so that the rod at the sheath keeps a sound length before and after the coming motion.
+/// Joints enter or leave so that the entering rod keeps a sound length before and after the coming motion.
 void Simulation::Impl::adapt_sheath(double inserted_mm) {
+  rod::ChainShape& shape = problem_.shape;
+  rod::ChainMaterial& material = problem_.material;
   const double least = std::min(inserted_mm, problem_.feed.inserted_mm);
-  while (problem_.shape.rods() > 2 && least - grid_[at(problem_.shape.rods() - 1)] < kLeave_mm)
-    remove_joint();
-  while (problem_.shape.rods() + 1 < static_cast<int>(grid_.size()) &&
-         least - grid_[at(problem_.shape.rods())] >= kEntry_mm) {
-    insert_joint();
+  int first = shape.rods();
+  const auto last_free = [&] { return shape.rods() - 2; };
+  while (shape.rods() > 2 && least - material.arc_mm[at(last_free())] < kLeave_mm) {
+    rod::join_rods(material, shape, last_free());
+    first = std::min(first, last_free());
   }
+  while (shape.rods() < static_cast<int>(grid_.size()) && least - grid_[at(shape.rods() - 1)] >= kEntry_mm) {
+    first = std::min(first, last_free());
+    rod::divide_rod(material, shape, last_free(), grid_[at(shape.rods() - 1)]);
+  }
+  if (first < shape.rods()) prepare_material(std::max(0, first - 1));
 }
 
 const StepReport& Simulation::Impl::step(const Command& command) {
@@ -358,9 +356,8 @@ const StepReport& Simulation::Impl::step(const Command& command) {
   const double before_mm = state_.inserted_mm;
   const Command piece{command.advance_mm / pieces, command.torque_rad / pieces};
   for (int k = 0; k < static_cast<int>(pieces) && report_.converged; ++k) {
-    // The equilibrium between two pieces of a command.
-    if (k > 0 && !in_sheath())
-      waypoints_.keep(problem_.shape.joints_mm, problem_.feed.inserted_mm, attempts_);
+    if (k > 0 && !in_sheath() && waypoints_.piece_is_due())
+      waypoints_.keep(problem_.shape.joints_mm, problem_.material.arc_mm, attempts_);
     report_.converged = advance(piece, 0);
   }
   ++state_.steps;
@@ -380,7 +377,8 @@ bool Simulation::Impl::advance(const Command& command, int split) {
   }
   restore(state_);
   waypoints_.forget(attempt);
-  if (split == spec_.solver.max_splits) return false;
+  const bool divisible = command.advance_mm != 0.0 || command.torque_rad != 0.0;
+  if (!divisible || split == spec_.solver.max_splits) return false;
   ++report_.splits;
   const Command half{0.5 * command.advance_mm, 0.5 * command.torque_rad};
   return advance(half, split + 1) && advance(half, split + 1);
@@ -395,7 +393,7 @@ bool Simulation::Impl::advance_once(const Command& command) {
   const double advance_mm = hand_mm_ - slip;
   const double inserted = feed.inserted_mm + advance_mm;
   if (in_sheath()) {
-    if (inserted < first_inside_mm()) {
+    if (inserted < kEntry_mm) {
       feed.inserted_mm = inserted;
       return true;
     }
@@ -405,7 +403,7 @@ bool Simulation::Impl::advance_once(const Command& command) {
     traced_.assign(problem_.shape.joints_mm.begin(), problem_.shape.joints_mm.end());
     traced_inserted_mm_ = inserted;
   } else {
-    if (inserted < grid_[1] + kLeave_mm) {  // back into the sheath
+    if (inserted < kLeave_mm) {  // back into the sheath
       problem_.shape.joints_mm.clear();
       problem_.shape.frames.clear();
       problem_.shape.spin_rad.clear();
@@ -413,6 +411,7 @@ bool Simulation::Impl::advance_once(const Command& command) {
       problem_.contact.clear();
       friction_.clear();
       drift_.advance_mm = drift_.slip_mm = 0.0;
+      drift_.arc_mm.clear();
       drift_.joints_mm.clear();
       feed.inserted_mm = inserted;
       feed.stretch_mm = feed.twist_rad = 0.0;
@@ -420,21 +419,16 @@ bool Simulation::Impl::advance_once(const Command& command) {
     }
     adapt_sheath(inserted);
     problem_.contact.place(wire(), problem_.shape.rods() - 1, *field_, contact_spec_, friction_);
-    follow_trace(problem_.material, access_.position_mm, access_.direction,
-                 {inserted, advance_mm, command.torque_rad}, problem_.shape, trace_);
+    follow_trace(problem_.material, {advance_mm, command.torque_rad}, problem_.shape, trace_);
     traced_.assign(problem_.shape.joints_mm.begin(), problem_.shape.joints_mm.end());
-    follow_drift(drift_, hand_mm_, problem_.shape, trace_);
+    follow_drift(drift_, problem_.material, hand_mm_, problem_.shape, trace_);
     feed.inserted_mm = traced_inserted_mm_ = inserted;
     feed.stretch_mm += slip;
-    problem_.material.arc_mm.back() = 2.0 * inserted - grid_[at(problem_.shape.rods() - 1)];
-    rod::fill_material_from(line_, problem_.shape.rods() - 1, gravity_m_per_s2_,
-                            spec_.blood_density_g_per_mm3, problem_.material);
-    problem_.fit_sheath_rod(inserted);
+    prepare_material(problem_.shape.rods() - 2);
   }
   const int n = problem_.shape.rods();
   problem_.release_all();
-  problem_.held[at(4 * (n - 1) + 1)] = 1;
-  problem_.held[at(4 * (n - 1) + 2)] = 1;
+  problem_.hold_joint(n - 1, true, true, true);
   predicted_.assign(problem_.shape.joints_mm.begin(), problem_.shape.joints_mm.end());
   return settle();
 }
@@ -443,11 +437,9 @@ bool Simulation::Impl::advance_once(const Command& command) {
 bool Simulation::Impl::settle() {
   contact::ContactSet& contact = problem_.contact;
   contact.detect(wire(), *field_, contact_spec_);
-  if (contact.add_over_ridges(wire(), *field_) > 0) {
-    contact.redetect(wire(), *field_, contact_spec_);
-  }
   report_.detections += 1.0;
-  rounds_ = 0;
+  if (contact.add_over_ridges(wire(), *field_) > 0) redetect();
+  rounds_ = corrections_ = 0;
   report_.solve = newton_.minimise(problem_, newton_spec_);
   report_.newton_iterations += report_.solve.iterations;
   return report_.solve.converged();
@@ -458,17 +450,27 @@ solve::Validity Simulation::Impl::check_walls() {
   contact::ContactSet& contact = problem_.contact;
   ++report_.verifications;
   const bool rough = rounds_ >= kUnevenFrom;
-  const int wrong = contact.verify(wire(), *field_, contact_spec_, rough).wrong_samples +
-                    contact.add_over_ridges(wire(), *field_, rough);
+  const contact::Verification walls =
+      contact.verify(wire(), *field_, contact_spec_, rough, corrections_ < kMaxCorrections);
+  const int wrong = walls.wrong_samples + contact.add_over_ridges(wire(), *field_, rough);
   if (wrong == 0) {
-    if (problem_.inside_region()) return solve::Validity::holds;
+    if (problem_.inside_region()) {
+      corrections_ += walls.corrected ? 1 : 0;
+      return walls.corrected ? solve::Validity::corrected : solve::Validity::holds;
+    }
     // A state on its way that no wall contradicts goes on from where it is.
     contact.mark_outside(problem_.shape, problem_.region_mm);
   }
   if (++rounds_ == kMaxDetections) return solve::Validity::hopeless;
-  const double samples = std::max<double>(1.0, static_cast<double>(contact.samples().size()));
-  report_.detections += contact.redetect(wire(), *field_, contact_spec_) / samples;
+  redetect();
   return solve::Validity::changed;
+}
+
+/// Detects the samples found wrong, and counts each as its part of a detection.
+void Simulation::Impl::redetect() {
+  contact::ContactSet& contact = problem_.contact;
+  report_.detections += static_cast<double>(contact.redetect(wire(), *field_, contact_spec_)) /
+                        static_cast<double>(contact.samples().size());
 }
 
 /// Whether the wire lies in the lumen all along, within what the wall may yield. Asked of shapes that are no equilibria.
@@ -495,17 +497,17 @@ void Simulation::Impl::keep_waypoint() {
   double moved = 0.0;
   for (std::size_t j = 0; j < joints.size(); ++j) moved = std::max(moved, (joints[j] - last[j]).norm());
   if (waypoints_.far_enough(moved) && lies_clear())
-    waypoints_.keep(joints, problem_.feed.inserted_mm, attempts_);
+    waypoints_.keep(joints, problem_.material.arc_mm, attempts_);
 }
 
 void Simulation::Impl::waypoint(int index, Snapshot& out) const {
   const Waypoints::Shape& shape = waypoints_.shape(index);
   out = Snapshot{};
-  out.inserted_length_mm = shape.inserted_mm;
+  out.inserted_length_mm = waypoints_.arc_mm(shape)[shape.joints - 2];
   for (std::size_t j = 0; j < shape.joints; ++j) {
     SnapshotPoint point;
     point.position_mm = waypoints_.joints_mm(shape)[j];
-    point.arc_mm = j + 1 < shape.joints ? grid_[j] : 2.0 * shape.inserted_mm - grid_[j - 1];
+    point.arc_mm = waypoints_.arc_mm(shape)[j];
     point.radius_mm = line_.radius_mm(point.arc_mm);
     out.points.push_back(point);
   }
@@ -517,21 +519,22 @@ void Simulation::Impl::finish(const Command& command) {
     hand_turn_rad_ += command.torque_rad;
   } else {
     const rod::ChainShape& shape = problem_.shape;
-    for (std::size_t j = 0; j < shape.joints_mm.size(); ++j) {
-      const double moved = (shape.joints_mm[j] - predicted_[j]).norm();
-      if (moved < kSnap_mm) continue;
-      report_.snapped = true;
-      report_.events.push_back({EventKind::snap, moved, shape.joints_mm[j]});
-      break;
-    }
-    drift_.advance_mm = report_.snapped ? 0.0 : hand_mm_;
-    drift_.slip_mm = hand_mm_ - (feed.inserted_mm - state_.inserted_mm);
-    drift_.joints_mm.resize(shape.joints_mm.size());
     const double beyond_trace_mm = feed.inserted_mm - traced_inserted_mm_;
-    for (std::size_t j = 0; j < shape.joints_mm.size(); ++j) {
-      const Eigen::Vector3d& along = shape.frames[std::min(j, shape.frames.size() - 1)].col(2);
-      drift_.joints_mm[j] = shape.joints_mm[j] - traced_[j] - beyond_trace_mm * along;
+    bool snapped = false;
+    const std::size_t free = shape.frames.size() - 1;
+    drift_.joints_mm.resize(free);
+    for (std::size_t j = 0; j < free; ++j) {
+      drift_.joints_mm[j] = shape.joints_mm[j] - traced_[j] - beyond_trace_mm * shape.frames[j].col(2);
+      const double jump_mm =
+          std::min(drift_.joints_mm[j].norm(), (shape.joints_mm[j] - predicted_[j]).norm());
+      if (snapped || jump_mm < kSnap_mm) continue;
+      snapped = report_.snapped = true;
+      report_.events.push_back({EventKind::snap, jump_mm, shape.joints_mm[j]});
     }
+    drift_.advance_mm = snapped ? 0.0 : hand_mm_;
+    drift_.slip_mm = hand_mm_ - (feed.inserted_mm - state_.inserted_mm);
+    drift_.arc_mm.assign(problem_.material.arc_mm.begin(),
+                         problem_.material.arc_mm.begin() + static_cast<std::ptrdiff_t>(free));
     problem_.contact.remember(shape, friction_);
     feed.stretch_mm = contact::friction_anchor(feed.push, {feed.stretch_mm, 0.0})[0];
     feed.twist_rad = contact::friction_anchor(feed.torque, {feed.twist_rad, 0.0})[0];

@@ -18,8 +18,10 @@ struct State {
   double grip_stretch_mm = 0.0;  ///< hand ahead of the wire, elastic: pushes
   double grip_twist_rad = 0.0;   ///< same, about the axis
   std::uint64_t steps = 0;
-  // Rod: joints from the tip; rod i lies between joints i and i + 1. None while the tip is in the sheath.
+  // Rod: joints from the tip; rod i lies between joints i and i + 1. None while the tip is in the sheath. The last joint but one is at the
+  // end of the sheath, the last within it.
   std::vector<Eigen::Vector3d> joints_mm;
+  std::vector<double> arc_mm;              ///< material arc of each joint in the lumen
   std::vector<Eigen::Vector3d> directors;  ///< first material director of each rod, unit, normal to it
   std::vector<double> spin_rad;            ///< unwrapped turn of each rod about its axis
   std::vector<double> twist_rad;           ///< unwrapped twist at each joint

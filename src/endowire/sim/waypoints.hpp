@@ -6,14 +6,14 @@
 
 namespace endowire::sim {
 
-/// Shapes that the wire passes through within one step, at most 128. When there are more, every second one is dropped and the
-/// distance between those to come doubled. Allocates nothing once reserved.
+/// Shapes that the wire passes through within one step, at most 128: on the way to an equilibrium, and the equilibria between
+/// the pieces of a long command. When there are more, every second one is dropped, and those to come are taken half as often.
+/// Allocates nothing once reserved.
 class Waypoints {
  public:
   struct Shape {
     std::size_t first;  ///< of its joints in the list of all
     std::size_t joints;
-    double inserted_mm;
     int attempt;  ///< number of the sub-step in which the wire passed it
   };
 
@@ -22,7 +22,10 @@ class Waypoints {
   void clear();
   /// Whether a wire that moved this far since the last shape is worth another.
   [[nodiscard]] bool far_enough(double moved_mm) const { return moved_mm >= spacing_mm_; }
-  void keep(const std::vector<Eigen::Vector3d>& joints_mm, double inserted_mm, int attempt);
+  /// Whether the equilibrium after one more piece of a command is worth keeping: every one, second, fourth …
+  [[nodiscard]] bool piece_is_due() { return pieces_++ % pieces_apart_ == 0; }
+  /// @param arc_mm  material arc of each joint
+  void keep(const std::vector<Eigen::Vector3d>& joints_mm, const std::vector<double>& arc_mm, int attempt);
   /// Forgets the shapes of a sub-step that failed, the last one.
   void forget(int attempt);
 
@@ -31,6 +34,7 @@ class Waypoints {
   [[nodiscard]] const Eigen::Vector3d* joints_mm(const Shape& shape) const {
     return joints_.data() + shape.first;
   }
+  [[nodiscard]] const double* arc_mm(const Shape& shape) const { return arcs_.data() + shape.first; }
   /// The joints of the last shape when there are as many as asked for, else null.
   [[nodiscard]] const Eigen::Vector3d* last_mm(std::size_t joints) const;
 
@@ -41,7 +45,10 @@ class Waypoints {
   static constexpr double kFirstSpacing_mm = 0.5;
   std::vector<Shape> shapes_;
   std::vector<Eigen::Vector3d> joints_;
+  std::vector<double> arcs_;
   double spacing_mm_ = kFirstSpacing_mm;
+  std::size_t pieces_ = 0;
+  std::size_t pieces_apart_ = 1;
 };
 
 }  // namespace endowire::sim

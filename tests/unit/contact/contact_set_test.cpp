@@ -73,8 +73,8 @@ class PressedWire : public testing::Test {
       const double energy = set_.linearise(at, {}, hessian, gradient, model);
       // What the walls' curvature gives, and what the model gives without any motion, make the whole Hessian.
       std::vector<double> model_gradient(d.size(), 0.0);
-      const ModelPart part =
-          model.add_derivatives(std::vector<double>(d.size(), 0.0), false, {}, hessian, model_gradient);
+      const ModelPart part = model.add_derivatives(
+          std::vector<double>(d.size(), 0.0), solve::ContactHessian::present, {}, hessian, model_gradient);
       EXPECT_GT(part.energy_mj, 0.0);
       for (std::size_t i = 0; i < d.size(); ++i) EXPECT_NEAR(model_gradient[i], gradient[i], 1e-12) << i;
       EXPECT_NEAR(energy, set_.energy_mj(at), 1e-12 * (1.0 + energy));
@@ -252,7 +252,7 @@ TEST_F(PressedWire, CorrectedForcesAgreeWithTheFieldAfterADisplacement) {
   }
 }
 
-// What is remembered at one state is recalled at the next: anchors and forces by material arc, whatever the sampling.
+// What is remembered at one state is recalled at the next: tractions and forces by material arc, whatever the sampling.
 TEST_F(PressedWire, FrictionIsRememberedByMaterialArc) {
   test::Random random(74);
   lay(*kTube, along_tube, random);
@@ -265,16 +265,16 @@ TEST_F(PressedWire, FrictionIsRememberedByMaterialArc) {
   set_.remember(there, memory);
   ASSERT_EQ(memory.arc_mm.size(), set_.samples().size());
   double largest = 0.0;
-  for (const Eigen::Vector2d& a : memory.anchor_mm) largest = std::max(largest, a.norm());
+  for (const Eigen::Vector2d& t : memory.traction_n_per_mm) largest = std::max(largest, t.norm());
   EXPECT_GT(largest, 1e-4);
   ContactSet next;
   next.place(wire_at(there), 10, *kTube, spec_, memory);
   ASSERT_EQ(next.samples().size(), memory.arc_mm.size());
   for (std::size_t i = 0; i < memory.arc_mm.size(); ++i) {
-    EXPECT_EQ(next.samples()[i].anchor_mm, memory.anchor_mm[i]);
+    EXPECT_EQ(next.samples()[i].traction_n_per_mm, memory.traction_n_per_mm[i]);
     EXPECT_NEAR(next.samples()[i].lagged_normal_n, set_.samples()[i].normal_n, 1e-12);
   }
-  // Nothing moves for many steps: the anchors stay to the last digits, also those at the limit.
+  // Nothing moves for many steps: the tractions stay to the last digits, also those at the limit.
   FrictionMemory now = memory;
   for (int step = 0; step < 1000; ++step) {
     next.place(wire_at(there), 10, *kTube, spec_, now);
@@ -283,7 +283,7 @@ TEST_F(PressedWire, FrictionIsRememberedByMaterialArc) {
     next.remember(there, now);
   }
   for (std::size_t i = 0; i < memory.arc_mm.size(); ++i) {
-    EXPECT_LT((now.anchor_mm[i] - memory.anchor_mm[i]).norm(), 1e-9) << i;
+    EXPECT_LT((now.traction_n_per_mm[i] - memory.traction_n_per_mm[i]).norm(), 1e-9) << i;
   }
 }
 

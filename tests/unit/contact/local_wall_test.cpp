@@ -92,5 +92,52 @@ TEST(LocalWall, IsThirdOrderOnASphere) {
       3.0, 1e-15, "sphere", 0.5);
 }
 
+// Corrected at a place, a wall has the height and the slope found there, and both remain derivatives of one another elsewhere.
+TEST(LocalWall, TakesOverWhatIsFound) {
+  test::Random random(31);
+  for (int trial = 0; trial < 40; ++trial) {
+    LocalWall wall = wall_of(random.frame(), random.uniform(0.1, 1.0), 0.2, -0.05);
+    wall.ridge = trial % 2 == 1;
+    wall.other_normal = (wall.normal + 0.3 * wall.first).normalized();
+    wall.other_height_mm = wall.height_mm + 0.02;
+    wall.blend_mm = 0.1;
+    for (int correction = 0; correction < 4; ++correction) {
+      const Eigen::Vector3d at = 0.1 * random.vector();
+      const Eigen::Vector3d gradient = local_height_derivatives(wall, at).gradient + 0.05 * random.vector();
+      const double height = local_height_mm(wall, at) + 0.01 * random.normal();
+      correct_local_wall(at, height, gradient, wall);
+      const LocalHeight found = local_height_derivatives(wall, at);
+      EXPECT_NEAR(found.value_mm, height, 1e-12);
+      EXPECT_LT((found.gradient - gradient).norm(), 1e-10);
+    }
+    const Eigen::Vector3d d = random.unit();
+    const LocalHeight now = local_height_derivatives(wall, {0.01, 0.02, -0.01});
+    test::expect_taylor(
+        [&](double h) { return local_height_mm(wall, Eigen::Vector3d(0.01, 0.02, -0.01) + h * d); },
+        now.gradient.dot(d), d.dot(now.hessian * d), 1.0 + std::abs(now.value_mm), "corrected", 0.01);
+  }
+}
+
+// The floor of a crease: heights whose slope across turns faster than any detected curvature. Tilts alone would swing for ever.
+TEST(LocalWall, ComesToRestInACrease) {
+  // H = z − ½κx² with κ = 5/mm near x = 0: a wire on it is pressed by 1 N, pulled along x by 0.05 N. Rest: κx = 0.05.
+  constexpr double kCurvature_per_mm = 5.0;
+  LocalWall wall;
+  wall.normal = Eigen::Vector3d::UnitZ();
+  wall.first = Eigen::Vector3d::UnitX();
+  wall.second = Eigen::Vector3d::UnitY();
+  double x = 0.2;
+  for (int round = 0; round < 12; ++round) {
+    const Eigen::Vector3d u(x, 0.0, 0.0);
+    correct_local_wall(u, -0.5 * kCurvature_per_mm * x * x, {-kCurvature_per_mm * x, 0.0, 1.0}, wall);
+    // Equilibrium of −0.05x + (−H) + ½·1·(x − x_before)² with the local wall, as Newton would find it.
+    for (int k = 0; k < 20; ++k) {
+      const LocalHeight h = local_height_derivatives(wall, {x, 0.0, 0.0});
+      x += (0.05 + h.gradient.x()) / (0.5 - h.hessian(0, 0));
+    }
+  }
+  EXPECT_NEAR(x, 0.05 / kCurvature_per_mm, 1e-6);
+}
+
 }  // namespace
 }  // namespace endowire::contact

@@ -1,0 +1,128 @@
+// The inserted length as an unknown: derivatives of everything that hangs on it.
+#include "endowire/sim/feed.hpp"
+
+#include <gtest/gtest.h>
+
+#include "endowire/sim/chain_problem.hpp"
+#include "support/chain_states.hpp"
+#include "support/taylor.hpp"
+#include "support/wires.hpp"
+
+namespace endowire::sim {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A bent chain that comes out of a sheath at arc 20.7 mm; the last rod lies in the sheath.
+class Sheathed : public testing::Test {
+ protected:
+  static constexpr double kInserted_mm = 20.7;
+
+  explicit Sheathed(rod::Instrument wire = varied_wire()) : line_(std::move(wire)) {
+    problem_.line = &line_;
+    problem_.feed.active = true;
+    problem_.feed.push = {5.0, 2.0};
+    problem_.feed.torque = {3.0, 4.0};
+    problem_.feed.inserted_mm = kInserted_mm;
+    problem_.feed.stretch_mm = 0.03;
+    problem_.feed.twist_rad = -0.2;
+  }
+
+  /// Rest curvature, a taper and a kink law, all where the entering rod is.
+  static rod::Instrument varied_wire() {
+    rod::Instrument wire = test::curved_tip_wire();
+    wire.sections[0].length_mm = 24.0;
+    wire.sections[0].flexural_rigidity_n_mm2 = {6.0, 14.0};
+    wire.sections[0].torsional_rigidity_n_mm2 = {5.0, 11.0};
+    wire.sections[0].axial_rigidity_n = {1900.0, 1900.0};
+    wire.sections[0].kink_curvature_per_mm = 0.12;
+    return wire;
+  }
+
+  void lay(double bend_rad, std::uint64_t seed) {
+    test::Random random(seed);
+    const std::vector<double> arcs{0.0, 4.0, 8.0, 12.0, 16.0, kInserted_mm, kInserted_mm + kSheathRod_mm};
+    problem_.material.resize(6);
+    problem_.material.arc_mm = arcs;
+    rod::fill_material_from(line_, 0, 9.81, 0.0, problem_.material);
+    problem_.shape = test::random_chain(arcs, bend_rad, 0.1, 1e-3, random);
+    problem_.fit_entering(kInserted_mm);
+    problem_.release_all();
+    problem_.hold_joint(5, true, true, true);
+    direction_ = test::random_direction(4 * arcs.size(), random);
+    for (std::size_t i = 4 * 6; i < direction_.size(); ++i) direction_[i] = 0.0;
+    direction_[21] = direction_[22] = 0.0;
+  }
+
+  /// Energy a way h along direction_, whose feed is entry 20 and whose turn at the hand is entry 23.
+  double energy_at(double h) const {
+    ChainProblem there = problem_;
+    std::vector<double> moved = direction_;
+    moved[20] = 0.0;
+    there.shape = test::moved_chain(problem_.shape, moved, h);
+    there.feed.inserted_mm += h * direction_[20];
+    there.feed.stretch_mm -= h * direction_[20];
+    there.feed.twist_rad -= h * direction_[23];
+    there.fit_entering(there.feed.inserted_mm);
+    return there.energy_mj();
+  }
+
+  rod::MaterialLine line_;
+  ChainProblem problem_;
+  std::vector<double> direction_;
+};
+
+TEST_F(Sheathed, GradientOfEverythingTogether) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    lay(0.25, seed);
+    math::BandMatrix hessian;
+    hessian.resize(problem_.unknowns());
+    std::vector<double> gradient(direction_.size(), 0.0);
+    const double energy = problem_.linearise(hessian, gradient);
+    EXPECT_NEAR(energy, problem_.energy_mj(), 1e-9 * energy);
+    EXPECT_GT(std::abs(gradient[20]), 1e-3) << "nothing depends on the feed";
+    test::expect_order([&](double h) { return energy_at(h) - energy - h * test::dot(gradient, direction_); },
+                       2.0, 1e-12 * energy, "seed " + std::to_string(seed), 0.02);
+  }
+}
+
+// On a uniform wire without a kink nothing is left out of the feed's row.
+class SheathedUniform : public Sheathed {
+ protected:
+  SheathedUniform() : Sheathed(test::uniform_wire(8.0, 6.0, 200.0)) {}
+};
+
+TEST_F(SheathedUniform, HessianOfTheFeed) {
+  lay(0.2, 7);
+  std::fill(direction_.begin(), direction_.end(), 0.0);
+  direction_[20] = 1.0;
+  math::BandMatrix hessian;
+  hessian.resize(problem_.unknowns());
+  std::vector<double> gradient(direction_.size(), 0.0);
+  const double energy = problem_.linearise(hessian, gradient);
+  test::expect_taylor([&](double h) { return energy_at(h); }, gradient[20],
+                      test::quadratic(hessian, direction_), energy, "feed", 0.05);
+  // Its row: what the gradients by all others change by.
+  std::vector<double> row(direction_.size());
+  hessian.multiply(direction_, row);
+  const auto gradient_at = [&](double h) {
+    ChainProblem there = problem_;
+    there.feed.inserted_mm += h;
+    there.feed.stretch_mm -= h;
+    there.fit_entering(there.feed.inserted_mm);
+    math::BandMatrix unused;
+    unused.resize(there.unknowns());
+    std::vector<double> g(direction_.size(), 0.0);
+    static_cast<void>(there.linearise(unused, g));
+    return g;
+  };
+  constexpr double h = 1e-5;
+  const std::vector<double> ahead = gradient_at(h);
+  const std::vector<double> behind = gradient_at(-h);
+  for (std::size_t i = 0; i < 24; ++i)
+    EXPECT_NEAR(row[i], (ahead[i] - behind[i]) / (2.0 * h), 1e-5 * (1.0 + std::abs(row[i])))
+        << "unknown " << i;
+}
+
+}  // namespace
+}  // namespace endowire::sim
