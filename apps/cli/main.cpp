@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   commands.emplace_back("inspect", cli::add_inspect(app));
   commands.emplace_back("instruments", cli::add_instruments(app));
   commands.emplace_back("simulate", cli::add_simulate(app));
+  commands.emplace_back("replay", cli::add_replay(app));
   const auto complain = [](const std::string& message) {
     std::fprintf(stderr, "%s\n", io::one_line(message).c_str());
     return cli::exit_bad_input;
@@ -31,7 +32,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::RequiredError& error) {
     if (argc > 1 && app.get_subcommands().empty())
       return complain(std::string("endowire: \"") + argv[1] +
-                      "\" is no subcommand; must be inspect, instruments or simulate");
+                      "\" is no subcommand; must be inspect, instruments, simulate or replay");
     return complain(std::string("endowire: ") + error.what());
   } catch (const CLI::ParseError& error) {
     return complain(std::string("endowire: ") + error.what());

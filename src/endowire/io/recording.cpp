@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "endowire/base/error.hpp"
@@ -17,6 +18,9 @@ using nlohmann::json;
 namespace {
 
 constexpr std::uintmax_t max_recording_bytes = std::uintmax_t{1} << 30;  // ten million commands
+// No hand does more in a step; the bounds of a scene's motions are the same.
+constexpr double max_advance_mm = 1e4;
+constexpr double max_torque_rad = 2e4;
 
 // Bytes that are no UTF-8 (a path may hold any) must not stop a recording.
 std::string dump(const json& value) {
@@ -45,26 +49,48 @@ RecordingHeader header_of(const json& value) {
   return header;
 }
 
+double bounded(const json& hand, const char* field, double limit) {
+  const double value = hand.at(field).get<double>();
+  if (!(std::abs(value) <= limit))
+    throw InputError(fmt::format("{} is {}; must be between {} and {}", field, value, -limit, limit));
+  return value;
+}
+
+void check_step(std::uint64_t step, std::uint64_t expected) {
+  if (step != expected) throw InputError(fmt::format("step is {}; must be {}", step, expected));
+}
+
+RecordedCommand command_of(const json& value, const std::vector<RecordedCommand>& before) {
+  const json& hands = value.at("hands");
+  if (hands.size() != 1) throw InputError(fmt::format("hands is a list of {}; must be of 1", hands.size()));
+  const json& hand = hands.at(0);
+  RecordedCommand command;
+  command.step = value.at("step").get<std::uint64_t>();
+  command.time_s = value.at("time_s").get<double>();
+  command.command = {bounded(hand, "advance_mm", max_advance_mm),
+                     bounded(hand, "torque_rad", max_torque_rad)};
+  check_step(command.step, before.size() + 1);
+  const double earlier_s = before.empty() ? 0.0 : before.back().time_s;
+  if (!(command.time_s >= earlier_s))
+    throw InputError(fmt::format("time_s is {}; must be >= {}", command.time_s, earlier_s));
+  return command;
+}
+
 void read_line(const json& value, bool first, Recording& recording) {
   const std::string kind = value.at("kind").get<std::string>();
   if (first != (kind == "header"))
     throw InputError(first ? "the first line is no header" : "a second header");
+  if (recording.complete) throw InputError("stands behind the end");
   if (kind == "header") {
     recording.header = header_of(value);
   } else if (kind == "command") {
-    const json& hands = value.at("hands");
-    if (hands.size() != 1) throw InputError(fmt::format("hands is a list of {}; must be of 1", hands.size()));
-    RecordedCommand command;
-    command.step = value.at("step").get<std::uint64_t>();
-    command.time_s = value.at("time_s").get<double>();
-    command.command = {hands.at(0).at("advance_mm").get<double>(),
-                       hands.at(0).at("torque_rad").get<double>()};
-    if (command.step != recording.commands.size() + 1)
-      throw InputError(fmt::format("step is {}; must be {}", command.step, recording.commands.size() + 1));
-    recording.commands.push_back(command);
+    recording.commands.push_back(command_of(value, recording.commands));
   } else if (kind == "state") {
-    recording.hashes.push_back({value.at("step").get<std::uint64_t>(), hash_of(value.at("state_hash"))});
+    const RecordedHash hash{value.at("step").get<std::uint64_t>(), hash_of(value.at("state_hash"))};
+    check_step(hash.step, recording.commands.size());
+    recording.hashes.push_back(hash);
   } else if (kind == "end") {
+    check_step(value.at("steps").get<std::uint64_t>(), recording.commands.size());
     recording.complete = true;
   } else {
     throw InputError('"' + kind + "\" is no kind of line");

@@ -25,7 +25,7 @@ constexpr double max_motion_deg = 1e6;
 
 const char* const known_generators = "\"tube_tree\"";
 
-VesselSource read_vessel(const TomlTable& root, const fs::path& folder) {
+VesselSource read_vessel(const TomlTable& root, const fs::path& folder, const RecordedParts* recorded) {
   const std::optional<TomlTable> table = root.table("vessel", {"file", "generate", "unit"});
   if (!table) root.refuse_missing("vessel", "a table with file or generate");
   VesselSource vessel;
@@ -43,6 +43,10 @@ VesselSource read_vessel(const TomlTable& root, const fs::path& folder) {
     return vessel;
   }
   const std::string text = table->string("file", "the path of a mesh");
+  if (recorded != nullptr) {
+    vessel.file = recorded->vessel_file;
+    return vessel;
+  }
   vessel.file = (folder / text).lexically_normal();
   std::error_code error;
   if (!fs::exists(vessel.file, error))
@@ -216,10 +220,9 @@ void read_motions(const TomlTable& root, SceneFile& scene) {
   }
 }
 
-}  // namespace
-
-SceneFile parse_scene(const std::string& text, const std::string& name,
-                      const std::vector<fs::path>& instrument_folders) {
+/// @param recorded  null: vessel and instrument are looked for
+SceneFile read_scene(const std::string& text, const std::string& name,
+                     const std::vector<fs::path>& instrument_folders, const RecordedParts* recorded) {
   const toml::table toml = parse_toml(text, name);
   const TomlTable root(toml, name, "",
                        {"schema", "title", "vessel", "access", "environment", "wall", "solver", "instrument",
@@ -232,10 +235,26 @@ SceneFile parse_scene(const std::string& text, const std::string& name,
   scene.text = text;
   read_access(root, scene);
   read_simulation(root, scene);
-  scene.vessel = read_vessel(root, folder);
-  scene.instrument = read_instrument(root, folder, instrument_folders);
+  scene.vessel = read_vessel(root, folder, recorded);
+  if (recorded == nullptr) {
+    scene.instrument = read_instrument(root, folder, instrument_folders);
+  } else {
+    recorded->instrument.validate(name + ": instrument");
+    scene.instrument = recorded->instrument;
+  }
   read_motions(root, scene);
   return scene;
+}
+
+}  // namespace
+
+SceneFile parse_scene(const std::string& text, const std::string& name,
+                      const std::vector<fs::path>& instrument_folders) {
+  return read_scene(text, name, instrument_folders, nullptr);
+}
+
+SceneFile parse_scene(const std::string& text, const std::string& name, const RecordedParts& parts) {
+  return read_scene(text, name, {}, &parts);
 }
 
 SceneFile read_scene_file(const fs::path& path, const std::vector<fs::path>& instrument_folders) {

@@ -44,6 +44,17 @@ struct SceneFile {
 [[nodiscard]] SceneFile parse_scene(const std::string& text, const std::string& name,
                                     const std::vector<std::filesystem::path>& instrument_folders);
 
+/// What stands in for the files that a scene names when it is read again from a recording.
+struct RecordedParts {
+  std::filesystem::path vessel_file;  ///< of no use to a generated vessel
+  rod::Instrument instrument;         ///< as it was simulated
+};
+
+/// Same, from the text in a recording: neither the vessel nor the instrument is looked for.
+/// @throws base::InputError as above, also when the instrument is no sound one
+[[nodiscard]] SceneFile parse_scene(const std::string& text, const std::string& name,
+                                    const RecordedParts& parts);
+
 /// One step of a scripted procedure.
 struct TimedCommand {
   double time_s = 0.0;  ///< when the step is done, from the start of the procedure

@@ -15,7 +15,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uintmax_t max_mesh_bytes = std::uintmax_t{2} << 30;  // 43 million triangles
 constexpr std::uintmax_t max_field_bytes = std::uintmax_t{2} << 30;
 
 std::span<const std::byte> bytes_of(const std::string& text) {

@@ -18,7 +18,9 @@ struct VesselMesh {
   vessel::RepairedMesh repaired;
 };
 
-/// Reads a mesh file (STL) of at most 2 GiB.
+inline constexpr std::uintmax_t max_mesh_bytes = std::uintmax_t{2} << 30;  // 43 million triangles
+
+/// Reads a mesh file (STL) of at most max_mesh_bytes.
 /// @throws base::InputError one line that names the file and what is wrong with it.
 [[nodiscard]] VesselMesh read_vessel_file(const std::filesystem::path& path, vessel::LengthUnit unit);
 

@@ -1,0 +1,117 @@
+#include "results.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <cstdio>
+
+#include "crossings.hpp"
+#include "endowire/io/summary.hpp"
+
+namespace endowire::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* instruction_set() {
+#if defined(__AVX512F__)
+  return "x86-64 with AVX-512";
+#elif defined(__AVX2__)
+  return "x86-64 with AVX2";
+#elif defined(__x86_64__)
+  return "x86-64";
+#elif defined(__aarch64__)
+  return "arm64";
+#else
+  return "other";
+#endif
+}
+
+std::string crossings_text(const io::CrossingVerdict& verdict) {
+  return verdict.crossings ? fmt::format("{}", *verdict.crossings) : verdict.note;
+}
+
+Eigen::Vector3d tip_of(const Procedure& procedure) {
+  return procedure.last.points.empty() ? procedure.scene.access.position_mm
+                                       : procedure.last.points.front().position_mm;
+}
+
+std::string picture_of(const Procedure& procedure, const io::CrossingVerdict& verdict) {
+  const io::RunStatistics& statistics = procedure.statistics;
+  const Eigen::Vector3d tip = tip_of(procedure);
+  io::PictureContent content;
+  content.title = fs::path(procedure.scene.name).stem().string();
+  content.subtitle = fmt::format(
+      "{}, {:.0f} mm inserted into {}", procedure.scene.instrument.model, procedure.last.inserted_length_mm,
+      procedure.scene.vessel.file.empty()
+          ? procedure.vessel.source
+          : (procedure.scene.vessel.file.parent_path().filename() / procedure.scene.vessel.file.filename())
+                .string());
+  content.numbers = {
+      {"Inserted", fmt::format("{:.1f} mm", procedure.last.inserted_length_mm)},
+      {"Tip", fmt::format("{:.1f}, {:.1f}, {:.1f} mm", tip.x(), tip.y(), tip.z())},
+      {"Largest push", fmt::format("{:.3f} N", statistics.max_push_force_n)},
+      {"Largest torque", fmt::format("{:.3f} N·mm", statistics.max_torque_n_mm)},
+      {"Largest wall force in 5 mm", fmt::format("{:.3f} N", statistics.max_force_5mm_n)},
+      {"Wall crossings", verdict.crossings ? fmt::format("{}", *verdict.crossings) : "not judged"}};
+  content.forces = procedure.forces;
+  content.gravity_m_per_s2 = procedure.scene.simulation.gravity_m_per_s2;
+  return io::wire_picture_svg(procedure.vessel.repaired.mesh, procedure.last, procedure.scene.access,
+                              content);
+}
+
+void print_table(const Procedure& procedure, const io::CrossingVerdict& verdict,
+                 const io::MachineFacts& machine, const io::RunOutput& output) {
+  const io::RunStatistics& statistics = procedure.statistics;
+  const Eigen::Vector3d tip = tip_of(procedure);
+  const auto row = [](const char* name, const std::string& value) {
+    fmt::print("  {:<18} {}\n", name, value);
+  };
+  fmt::print("{}: {} steps, {} converged, {} split\n", procedure.scene.name, statistics.steps,
+             statistics.converged_steps, statistics.split_steps);
+  row("inserted", fmt::format("{:.1f} mm", procedure.last.inserted_length_mm));
+  row("tip", fmt::format("({:.1f}, {:.1f}, {:.1f}) mm", tip.x(), tip.y(), tip.z()));
+  row("largest push", fmt::format("{:.3f} N", statistics.max_push_force_n));
+  row("largest torque", fmt::format("{:.3f} N mm", statistics.max_torque_n_mm));
+  row("largest wall force", fmt::format("{:.3f} N in 5 mm, {:.3f} N at the tip", statistics.max_force_5mm_n,
+                                        statistics.max_tip_force_n));
+  row("wall crossings", crossings_text(verdict));
+  row("events", fmt::format("{}", statistics.events.size()));
+  row("step time", fmt::format("{:.0f} us median, {:.0f} us 99 %", io::percentile(statistics.step_us, 0.5),
+                               io::percentile(statistics.step_us, 0.99)));
+  row("preparation",
+      fmt::format("{:.2f} s{}", machine.preparation_s, machine.field_from_cache ? ", from the cache" : ""));
+  row("peak memory", fmt::format("{:.0f} MB", machine.peak_memory_mb));
+  std::string files;
+  for (const std::string& name : output.written()) files += (files.empty() ? "" : ", ") + name;
+  row("written", fmt::format("{}: {}", output.folder().string(), files));
+  if (!io::vtp_available())
+    row("",
+        "wire.vtp, wire.pvd and steps/ are not written: this build has no VTK (ENDOWIRE_WITH_VTK is off)");
+}
+
+}  // namespace
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // kilobytes on Linux
+}
+
+void write_results(const Procedure& procedure, const fs::path& triangles, double peak_mb,
+                   const RunOptions& options, io::RunOutput& output, Progress& progress) {
+  progress.stage("judging wall crossings …");
+  const io::CrossingVerdict verdict =
+      judge_crossings(output.folder() / "wire.pvd", triangles, vessel::name_of(procedure.vessel.unit));
+  output.file("wire.svg", picture_of(procedure, verdict));
+  const io::MachineFacts machine{peak_mb, procedure.preparation_s,
+                                 procedure.prepared.origin == io::FieldOrigin::cached, instruction_set()};
+  output.file("summary.json",
+              io::summary_json(procedure.scene, procedure.vessel, *procedure.prepared.field,
+                               procedure.statistics, procedure.last, procedure.state_hash, verdict, machine));
+  progress.clear();
+  if (!options.quiet) print_table(procedure, verdict, machine, output);
+}
+
+}  // namespace endowire::cli

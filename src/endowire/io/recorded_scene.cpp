@@ -1,0 +1,85 @@
+#include "endowire/io/recorded_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "endowire/base/error.hpp"
+#include "endowire/io/file.hpp"
+#include "endowire/io/vessel_file.hpp"
+
+namespace endowire::io {
+
+namespace fs = std::filesystem;
+using base::InputError;
+
+namespace {
+
+const char* const generated_prefix = "generate:";
+
+bool is_file(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+void check_content(std::uint64_t content, const RecordingHeader& header, const std::string& recording,
+                   const std::string& vessel) {
+  if (content == header.vessel_hash) return;
+  throw InputError(fmt::format("{}: vessel {} has content {}; must be {}, as it was recorded", recording,
+                               vessel, hash_text(content), hash_text(header.vessel_hash)));
+}
+
+fs::path find_mesh(const RecordingHeader& header, const fs::path& recording_path, const fs::path& given) {
+  const std::string recording = one_line(recording_path.string());
+  const fs::path folder = recording_path.parent_path();
+  const fs::path recorded = header.vessel;
+  const std::vector<fs::path> places =
+      given.empty() ? std::vector<fs::path>{recorded, folder / recorded, folder / recorded.filename()}
+                    : std::vector<fs::path>{given};
+  fs::path other;  // of that name, but not that content
+  std::uint64_t content = 0;
+  for (const fs::path& place : places) {
+    if (!is_file(place)) continue;
+    content = content_hash(read_file(place, max_mesh_bytes));
+    if (content == header.vessel_hash) return place;
+    other = place;
+  }
+  if (other.empty())
+    throw InputError(fmt::format(
+        "{}: vessel {} (content {}) was not found; --vessel FILE tells where it lies now", recording,
+        one_line((given.empty() ? recorded : given).string()), hash_text(header.vessel_hash)));
+  check_content(content, header, recording, one_line(other.string()));
+  return other;
+}
+
+}  // namespace
+
+SceneFile recorded_scene(const RecordingHeader& header, const fs::path& recording_path,
+                         const fs::path& vessel_file) {
+  const std::string recording = one_line(recording_path.string());
+  const bool generated = header.vessel.starts_with(generated_prefix);
+  const RecordedParts parts{generated ? fs::path() : find_mesh(header, recording_path, vessel_file),
+                            header.instrument};
+  SceneFile scene;
+  try {
+    scene = parse_scene(header.scene_text, one_line(header.scene_name), parts);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: its scene: {}", recording, error.what()));
+  }
+  if (generated != !scene.vessel.generate.empty())
+    throw InputError(
+        fmt::format("{}: vessel is {}, which is not that of its scene", recording, one_line(header.vessel)));
+  if (generated)
+    check_content(generate_vessel(scene.vessel.generate).content_hash, header, recording, header.vessel);
+  return scene;
+}
+
+std::vector<TimedCommand> recorded_commands(const Recording& recording) {
+  std::vector<TimedCommand> commands;
+  commands.reserve(recording.commands.size());
+  for (const RecordedCommand& recorded : recording.commands)
+    commands.push_back({recorded.time_s, recorded.command});
+  return commands;
+}
+
+}  // namespace endowire::io
