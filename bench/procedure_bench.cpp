@@ -90,7 +90,7 @@ Played play(sim::Simulation& simulation, const std::vector<io::TimedCommand>& co
     const Clock::time_point start = Clock::now();
     const sim::StepReport& report = simulation.step(timed.command);
     const double step_s = seconds_since(start);
-    run.statistics.add(timed.time_s, report, 1e6 * step_s);
+    run.statistics.add(timed.time_s, report, report.events, 1e6 * step_s);
     run.contact_samples += report.contact_samples;
     run.total_s += step_s;
     run.inserted_mm = report.inserted_length_mm;

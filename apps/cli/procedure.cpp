@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <future>
 
 #include "commands.hpp"
 #include "endowire/base/error.hpp"
+#include "endowire/io/centreline_file.hpp"
+#include "endowire/sim/event_watch.hpp"
 #include "results.hpp"
 
 namespace endowire::cli {
@@ -42,14 +45,14 @@ int report_failure(const Procedure& procedure) {
   return exit_not_converged;
 }
 
-sim::Simulation make_simulation(const Procedure& procedure) {
+/// Calls something of a lower layer, which knows no file names: bad input is named after the scene.
+template <class Call>
+auto named_after(const std::string& scene, Call call) {
   try {
-    return {procedure.prepared.field, procedure.scene.instrument, procedure.scene.access,
-            procedure.scene.simulation};
+    return call();
   } catch (const base::InputError& error) {
     const std::string message = error.what();
-    throw base::InputError(message.starts_with(procedure.scene.name) ? message
-                                                                     : procedure.scene.name + ": " + message);
+    throw base::InputError(message.starts_with(scene) ? message : scene + ": " + message);
   }
 }
 
@@ -58,6 +61,7 @@ void play(Procedure& procedure, sim::Simulation& simulation, std::span<const io:
           io::RunOutput& output, Progress& progress, const StepWatcher& watcher) {
   const auto count = static_cast<std::uint64_t>(commands.size());
   procedure.forces.reserve(commands.size());
+  sim::EventWatch events(procedure.centrelines);
   sim::Snapshot on_the_way;
   for (std::uint64_t step = 1; step <= count; ++step) {
     const io::TimedCommand& timed = commands[step - 1];
@@ -65,7 +69,9 @@ void play(Procedure& procedure, sim::Simulation& simulation, std::span<const io:
     const Clock::time_point start = Clock::now();
     const sim::StepReport& report = simulation.step(timed.command);
     const double step_us = 1e6 * seconds_since(start);
-    procedure.statistics.add(timed.time_s, report, step_us);
+    simulation.snapshot(procedure.last);
+    procedure.statistics.add(timed.time_s, report, events.after(timed.command, report, procedure.last),
+                             step_us);
     procedure.forces.push_back({report.inserted_length_mm, report.push_force_n});
     for (int k = 0; k < simulation.waypoints(); ++k) {
       const double before_s = step > 1 ? commands[step - 2].time_s : 0.0;
@@ -73,7 +79,6 @@ void play(Procedure& procedure, sim::Simulation& simulation, std::span<const io:
       simulation.waypoint(k, on_the_way);
       output.waypoint(step, k, before_s + share * (timed.time_s - before_s), on_the_way);
     }
-    simulation.snapshot(procedure.last);
     output.shape(step, timed.time_s, procedure.last);
     if (step % hash_interval == 0 || step == count) output.state_hash({step, simulation.state_hash()});
     if (watcher) watcher(step, simulation);
@@ -103,7 +108,14 @@ Procedure prepare(io::SceneFile scene, const std::string& cache, Progress& progr
   procedure.vessel = source.generate.empty() ? io::read_vessel_file(source.file, source.unit)
                                              : io::generate_vessel(source.generate);
   if (procedure.scene.opening) procedure.scene.access = through_opening(procedure.scene, procedure.vessel);
+  std::future<std::shared_ptr<const vessel::CentrelineTree>> centrelines =
+      std::async(std::launch::async, [&] { return io::prepare_centrelines(procedure.vessel, cache); });
   procedure.prepared = io::prepare_field(procedure.vessel, cache);
+  procedure.centrelines = centrelines.get();
+  if (procedure.scene.target)
+    procedure.target = named_after(procedure.scene.name, [&] {
+      return sim::find_target(*procedure.centrelines, *procedure.scene.target);
+    });
   procedure.preparation_s = seconds_since(start);
   return procedure;
 }
@@ -111,7 +123,10 @@ Procedure prepare(io::SceneFile scene, const std::string& cache, Progress& progr
 int run_procedure(Procedure& procedure, std::span<const io::TimedCommand> commands,
                   const io::RecordingHeader& header, const RunOptions& options, Progress& progress,
                   const StepWatcher& watcher) {
-  sim::Simulation simulation = make_simulation(procedure);
+  sim::Simulation simulation = named_after(procedure.scene.name, [&] {
+    return sim::Simulation(procedure.prepared.field, procedure.scene.instrument, procedure.scene.access,
+                           procedure.scene.simulation);
+  });
   // From here on the input is good: only now is the folder touched.
   io::RunOutput output(options.out, header, procedure.scene.access);
   fs::path triangles = procedure.scene.vessel.file;

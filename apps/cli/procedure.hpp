@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,6 +31,8 @@ struct Procedure {
   io::SceneFile scene;
   io::VesselMesh vessel;
   io::PreparedField prepared;
+  std::shared_ptr<const vessel::CentrelineTree> centrelines;
+  std::optional<sim::Target> target;
   double preparation_s = 0.0;
   io::RunStatistics statistics;
   std::vector<io::ForcePoint> forces;  ///< a point a step
@@ -40,7 +44,7 @@ struct Procedure {
 void add_run_options(CLI::App& command, RunOptions& options);
 
 /// Reads and prepares the vessel of a scene.
-/// @throws base::InputError one line about the vessel or the access.
+/// @throws base::InputError one line about the vessel, the access or the target.
 [[nodiscard]] Procedure prepare(io::SceneFile scene, const std::string& cache, Progress& progress);
 
 /// Called after each step.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "crossings.hpp"
@@ -30,6 +31,35 @@ const char* instruction_set() {
 
 std::string crossings_text(const io::CrossingVerdict& verdict) {
   return verdict.crossings ? fmt::format("{}", *verdict.crossings) : verdict.note;
+}
+
+/// "2 snap, 1 new_branch", in the order in which the kinds first came.
+std::string events_text(const io::RunStatistics& statistics) {
+  std::vector<std::pair<std::string_view, int>> counts;
+  for (const io::TimedEvent& timed : statistics.events) {
+    const std::string_view kind = io::name_of(timed.event.kind);
+    const auto found =
+        std::find_if(counts.begin(), counts.end(), [&](const auto& c) { return c.first == kind; });
+    found == counts.end() ? static_cast<void>(counts.emplace_back(kind, 1))
+                          : static_cast<void>(++found->second);
+  }
+  std::string text;
+  for (const auto& [kind, count] : counts)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, kind);
+  return text.empty() ? "none" : text;
+}
+
+std::string target_text(const Procedure& procedure, const Eigen::Vector3d& tip) {
+  const sim::TargetDistance distance = sim::distance_to(*procedure.target, *procedure.centrelines, tip);
+  return fmt::format("{}, {:.1f} mm to go, {:.2f} radii from the centreline",
+                     distance.reached ? "reached" : "not reached", distance.to_go_mm, distance.offset_radii);
+}
+
+std::string branch_text(const Procedure& procedure, const Eigen::Vector3d& tip) {
+  const std::int32_t branch = procedure.centrelines->branch_at(tip);
+  if (branch < 0) return "";
+  return fmt::format(", in branch {}",
+                     procedure.centrelines->branches()[static_cast<std::size_t>(branch)].name);
 }
 
 Eigen::Vector3d tip_of(const Procedure& procedure) {
@@ -71,13 +101,15 @@ void print_table(const Procedure& procedure, const io::CrossingVerdict& verdict,
   fmt::print("{}: {} steps, {} converged, {} split\n", procedure.scene.name, statistics.steps,
              statistics.converged_steps, statistics.split_steps);
   row("inserted", fmt::format("{:.1f} mm", procedure.last.inserted_length_mm));
-  row("tip", fmt::format("({:.1f}, {:.1f}, {:.1f}) mm", tip.x(), tip.y(), tip.z()));
+  row("tip",
+      fmt::format("({:.1f}, {:.1f}, {:.1f}) mm{}", tip.x(), tip.y(), tip.z(), branch_text(procedure, tip)));
+  if (procedure.target) row("target", target_text(procedure, tip));
   row("largest push", fmt::format("{:.3f} N", statistics.max_push_force_n));
   row("largest torque", fmt::format("{:.3f} N mm", statistics.max_torque_n_mm));
   row("largest wall force", fmt::format("{:.3f} N in 5 mm, {:.3f} N at the tip", statistics.max_force_5mm_n,
                                         statistics.max_tip_force_n));
   row("wall crossings", crossings_text(verdict));
-  row("events", fmt::format("{}", statistics.events.size()));
+  row("events", events_text(statistics));
   row("step time", fmt::format("{:.0f} us median, {:.0f} us 99 %", io::percentile(statistics.step_us, 0.5),
                                io::percentile(statistics.step_us, 0.99)));
   row("preparation",
@@ -109,7 +141,8 @@ void write_results(const Procedure& procedure, const fs::path& triangles, double
                                  procedure.prepared.origin == io::FieldOrigin::cached, instruction_set()};
   output.file("summary.json",
               io::summary_json(procedure.scene, procedure.vessel, *procedure.prepared.field,
-                               procedure.statistics, procedure.last, procedure.state_hash, verdict, machine));
+                               {*procedure.centrelines, procedure.target}, procedure.statistics,
+                               procedure.last, procedure.state_hash, verdict, machine));
   progress.clear();
   if (!options.quiet) print_table(procedure, verdict, machine, output);
 }

@@ -105,6 +105,26 @@ TEST(Simulate, NotConvergedIsExitThreeAndSaysWhere) {
   EXPECT_TRUE(summary["first_failure"].is_object());
 }
 
+TEST(Simulate, SaysWhetherTheTargetIsReached) {
+  const TemporaryFolder folder;
+  test::write_text(folder / "v.stl", test::tube_stl(4.0, 60.0));
+  const std::string scene = test::tube_scene;
+  test::write_text(folder / "s.toml", scene + "[target]\nnear_mm = [0.0, 0.0, 24.0]\n");
+  EXPECT_EQ(run_endowire(folder, simulate("out")).code, 0);
+  json summary = json::parse(test::read_text(folder / "out/summary.json"));
+  EXPECT_EQ(summary["instruments"][0]["tip_branch"], "1");
+  EXPECT_EQ(summary["target"]["branch"], "1");
+  // The root of a closed tube may be either end: the tip, at 25 mm, lies behind the goal or before it.
+  const double to_go = summary["target"]["to_go_mm"];
+  EXPECT_EQ(summary["target"]["reached"], to_go == 0.0);
+  EXPECT_NEAR(to_go, to_go == 0.0 ? 0.0 : 1.0, 0.3);
+  test::write_text(folder / "s.toml", scene + "[target]\nbranch = \"carotid\"\n");
+  const Outcome outcome = run_endowire(folder, simulate("not_made"));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.err, "s.toml: target.branch is \"carotid\"; must be one of 1\n");
+  EXPECT_FALSE(std::filesystem::exists(folder / "not_made"));
+}
+
 TEST(Inspect, SaysWhatAMeshIs) {
   const TemporaryFolder folder;
   test::write_text(folder / "v.stl", test::tube_stl(0.4, 6.0));

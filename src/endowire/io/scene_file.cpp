@@ -23,6 +23,8 @@ constexpr double max_steps = 1e6;      // three hours at 100 Hz; a slip of a uni
 constexpr double max_motion_mm = 1e4;  // three times the longest wire made
 constexpr double max_motion_deg = 1e6;
 
+const char* const default_perforation_source =
+    "estimate: the order at which a stiff tip passes an arterial wall; no measurement is cited";
 const char* const known_generators = "\"tube_tree\"";
 
 VesselSource read_vessel(const TomlTable& root, const fs::path& folder, const RecordedParts* recorded) {
@@ -114,11 +116,13 @@ rod::Instrument read_instrument(const TomlTable& root, const fs::path& folder,
   return instrument;
 }
 
-void read_wall(const TomlTable& root, sim::SimulationSpec& spec) {
-  const std::optional<TomlTable> table = root.table(
-      "wall",
-      {"modulus_mpa", "poisson_ratio", "thickness_over_radius", "max_deflection_mm", "perforation_force_n"});
+void read_wall(const TomlTable& root, SceneFile& scene) {
+  scene.perforation_source = default_perforation_source;
+  const std::optional<TomlTable> table =
+      root.table("wall", {"modulus_mpa", "poisson_ratio", "thickness_over_radius", "max_deflection_mm",
+                          "perforation_force_n", "perforation_source"});
   if (!table) return;
+  sim::SimulationSpec& spec = scene.simulation;
   sim::WallSpec& wall = spec.wall;
   wall.modulus_mpa = table->number_or("modulus_mpa", wall.modulus_mpa, between(0.1, 1000.0));
   wall.poisson_ratio = table->number_or("poisson_ratio", wall.poisson_ratio, between(0.0, 0.49));
@@ -126,6 +130,31 @@ void read_wall(const TomlTable& root, sim::SimulationSpec& spec) {
       table->number_or("thickness_over_radius", wall.thickness_over_radius, between(0.01, 1.0));
   wall.max_deflection_mm = table->number_or("max_deflection_mm", wall.max_deflection_mm, between(0.01, 0.18));
   spec.perforation_force_n = table->number_or("perforation_force_n", spec.perforation_force_n, above(0.0));
+  if (table->has("perforation_force_n")) scene.perforation_source = "the scene";
+  scene.perforation_source =
+      table->string_or("perforation_source", scene.perforation_source, "where the threshold comes from");
+}
+
+/// Whether the branch exists is known once the vessel is.
+void read_target(const TomlTable& root, SceneFile& scene) {
+  const std::optional<TomlTable> table =
+      root.table("target", {"name", "branch", "near_mm", "beyond_ostium_mm", "within_radii"});
+  if (!table) return;
+  if (table->has("branch") == table->has("near_mm"))
+    root.refuse("target",
+                table->has("branch") ? "given both a branch and a point" : "given neither branch nor near_mm",
+                "given one of the two");
+  sim::TargetSpec target;
+  target.name = table->string_or("name", "", "a text");
+  if (table->has("near_mm")) {
+    target.near_mm = table->vector("near_mm");
+  } else {
+    target.branch = table->string("branch", "the name of a branch, as endowire inspect lists it");
+  }
+  if (table->has("beyond_ostium_mm"))
+    target.beyond_ostium_mm = table->number("beyond_ostium_mm", between(0.0, max_motion_mm));
+  target.within_radii = table->number_or("within_radii", target.within_radii, between(0.1, 10.0));
+  scene.target = target;
 }
 
 void read_solver(const TomlTable& root, sim::SolverSpec& solver) {
@@ -168,7 +197,7 @@ void read_simulation(const TomlTable& root, SceneFile& scene) {
     spec.blood_density_g_per_mm3 =
         table->number_or("blood_density_g_per_mm3", spec.blood_density_g_per_mm3, between(0.0, 2e-3));
   }
-  read_wall(root, spec);
+  read_wall(root, scene);
   read_solver(root, spec.solver);
 }
 
@@ -226,7 +255,7 @@ SceneFile read_scene(const std::string& text, const std::string& name,
   const toml::table toml = parse_toml(text, name);
   const TomlTable root(toml, name, "",
                        {"schema", "title", "vessel", "access", "environment", "wall", "solver", "instrument",
-                        "simulation", "motion"});
+                        "simulation", "motion", "target"});
   static_cast<void>(root.integer("schema", 1, 1));
   static_cast<void>(root.string_or("title", "", "a text"));
   const fs::path folder = fs::path(name).parent_path();
@@ -243,6 +272,7 @@ SceneFile read_scene(const std::string& text, const std::string& name,
     scene.instrument = recorded->instrument;
   }
   read_motions(root, scene);
+  read_target(root, scene);
   return scene;
 }
 

@@ -8,6 +8,7 @@
 
 #include "endowire/rod/instrument.hpp"
 #include "endowire/sim/scene.hpp"
+#include "endowire/sim/target.hpp"
 #include "endowire/vessel/stl.hpp"
 
 namespace endowire::io {
@@ -30,6 +31,8 @@ struct SceneFile {
   sim::SimulationSpec simulation;
   std::optional<double> step_s;  ///< a fixed rate instead of the longest step
   std::vector<sim::Motion> motions;
+  std::optional<sim::TargetSpec> target;
+  std::string perforation_source;  ///< where the threshold of a perforation comes from
 };
 
 /// Reads a scene. Relative vessel and instrument paths are relative to the scene's folder; an instrument is a

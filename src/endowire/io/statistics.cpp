@@ -30,8 +30,34 @@ std::string_view name_of(sim::EventKind kind) {
       return "hand_slip";
     case sim::EventKind::not_converged:
       return "not_converged";
+    case sim::EventKind::stall:
+      return "stall";
+    case sim::EventKind::new_branch:
+      return "new_branch";
+    case sim::EventKind::self_overlap:
+      return "self_overlap";
   }
   return "unknown";
+}
+
+std::string_view unit_of(sim::EventKind kind) {
+  switch (kind) {
+    case sim::EventKind::perforation:
+    case sim::EventKind::not_converged:
+    case sim::EventKind::stall:
+      return "N";
+    case sim::EventKind::kink:
+      return "1/mm";
+    case sim::EventKind::exit:
+      return "";
+    case sim::EventKind::snap:
+    case sim::EventKind::too_narrow:
+    case sim::EventKind::hand_slip:
+    case sim::EventKind::new_branch:
+    case sim::EventKind::self_overlap:
+      break;
+  }
+  return "mm";
 }
 
 std::string_view name_of(solve::Termination termination) {
@@ -48,7 +74,8 @@ std::string_view name_of(solve::Termination termination) {
   return "unknown";
 }
 
-void RunStatistics::add(double time_s, const sim::StepReport& report, double wall_time_us) {
+void RunStatistics::add(double time_s, const sim::StepReport& report, std::span<const sim::Event> begun,
+                        double wall_time_us) {
   ++steps;
   if (report.converged) {
     ++converged_steps;
@@ -72,7 +99,7 @@ void RunStatistics::add(double time_s, const sim::StepReport& report, double wal
   newton_iterations.push_back(report.newton_iterations);
   wall_deflection_mm.push_back(report.max_wall_deflection_mm);
   (report.snapped ? snap_step_us : step_us).push_back(wall_time_us);
-  for (const sim::Event& event : report.events) events.push_back({steps, time_s, event});
+  for (const sim::Event& event : begun) events.push_back({steps, time_s, event});
 }
 
 }  // namespace endowire::io

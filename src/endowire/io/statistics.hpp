@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,8 @@ namespace endowire::io {
 [[nodiscard]] double percentile(std::vector<double> values, double fraction);
 
 [[nodiscard]] std::string_view name_of(sim::EventKind kind);
+/// Of an event's value; empty for a count.
+[[nodiscard]] std::string_view unit_of(sim::EventKind kind);
 [[nodiscard]] std::string_view name_of(solve::Termination termination);
 
 struct TimedEvent {
@@ -32,7 +35,9 @@ struct FailedStep {
 /// What a run was like, gathered step by step.
 class RunStatistics {
  public:
-  void add(double time_s, const sim::StepReport& report, double wall_time_us);
+  /// @param begun  the events that began in this step
+  void add(double time_s, const sim::StepReport& report, std::span<const sim::Event> begun,
+           double wall_time_us);
 
   std::uint64_t steps = 0;
   std::uint64_t converged_steps = 0;

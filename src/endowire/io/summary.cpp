@@ -42,14 +42,22 @@ double per_step(double count, std::uint64_t steps) {
   return steps == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(steps);
 }
 
-json events_json(const RunStatistics& run) {
+json name_or_null(const vessel::CentrelineTree& tree, std::int32_t branch) {
+  return branch < 0 ? json(nullptr) : json(tree.branches()[static_cast<std::size_t>(branch)].name);
+}
+
+json events_json(const RunStatistics& run, const vessel::CentrelineTree& tree) {
   json events = json::array();
-  for (const TimedEvent& event : run.events)
-    events.push_back({{"step", event.step},
-                      {"time_s", finite(event.time_s)},
-                      {"kind", name_of(event.event.kind)},
-                      {"value", finite(event.event.value)},
-                      {"position_mm", vector_json(event.event.position_mm)}});
+  for (const TimedEvent& timed : run.events) {
+    const sim::Event& event = timed.event;
+    events.push_back({{"step", timed.step},
+                      {"time_s", finite(timed.time_s)},
+                      {"kind", name_of(event.kind)},
+                      {"value", finite(event.value)},
+                      {"unit", unit_of(event.kind)},
+                      {"position_mm", vector_json(event.position_mm)}});
+    if (event.branch >= 0) events.back()["branch"] = name_or_null(tree, event.branch);
+  }
   return events;
 }
 
@@ -118,9 +126,25 @@ json vessel_json(const VesselMesh& mesh, const vessel::MeshField& field) {
             {"refinement_complete", facts.refinement_complete}}}};
 }
 
+json target_json(const SceneFile& scene, const RunGoal& goal, const Eigen::Vector3d& tip_mm) {
+  if (!goal.target || !scene.target) return nullptr;
+  const sim::Target& target = *goal.target;
+  const sim::TargetDistance distance = sim::distance_to(target, goal.tree, tip_mm);
+  return {{"name", scene.target->name},
+          {"branch", name_or_null(goal.tree, target.branch)},
+          {"beyond_ostium_mm", finite(target.beyond_ostium_mm)},
+          {"within_radii", finite(target.within_radii)},
+          {"position_mm", vector_json(target.position_mm)},
+          {"radius_mm", finite(target.radius_mm)},
+          {"reached", distance.reached},
+          {"to_go_mm", finite(distance.to_go_mm)},
+          {"offset_radii", finite(distance.offset_radii)}};
+}
+
 std::string summary_json(const SceneFile& scene, const VesselMesh& mesh, const vessel::MeshField& field,
-                         const RunStatistics& run, const sim::Snapshot& last, std::uint64_t state_hash,
-                         const CrossingVerdict& verdict, const MachineFacts& machine) {
+                         const RunGoal& goal, const RunStatistics& run, const sim::Snapshot& last,
+                         std::uint64_t state_hash, const CrossingVerdict& verdict,
+                         const MachineFacts& machine) {
   const Eigen::Vector3d tip =
       last.points.empty() ? scene.access.position_mm : Eigen::Vector3d(last.points.front().position_mm);
   json summary = {
@@ -150,11 +174,15 @@ std::string summary_json(const SceneFile& scene, const VesselMesh& mesh, const v
        {{{"model", scene.instrument.model},
          {"inserted_length_mm", finite(last.inserted_length_mm)},
          {"tip_position_mm", vector_json(tip)},
+         {"tip_branch", name_or_null(goal.tree, goal.tree.branch_at(tip))},
          {"max_push_force_n", finite(run.max_push_force_n)},
          {"min_push_force_n", finite(run.min_push_force_n)},
          {"max_torque_n_mm", finite(run.max_torque_n_mm)},
          {"hand_slip_mm", finite(run.hand_slip_mm)}}}},
-      {"events", events_json(run)},
+      {"target", target_json(scene, goal, tip)},
+      {"perforation_threshold",
+       {{"force_n", finite(scene.simulation.perforation_force_n)}, {"source", scene.perforation_source}}},
+      {"events", events_json(run, goal.tree)},
       {"first_failure", failure_json(run)},
       {"state_hash", hash_text(state_hash)},
       {"machine",

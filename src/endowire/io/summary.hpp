@@ -8,6 +8,7 @@
 #include "endowire/io/statistics.hpp"
 #include "endowire/io/vessel_file.hpp"
 #include "endowire/sim/snapshot.hpp"
+#include "endowire/sim/target.hpp"
 
 namespace endowire::io {
 
@@ -29,10 +30,21 @@ struct MachineFacts {
 /// field.
 [[nodiscard]] nlohmann::ordered_json vessel_json(const VesselMesh& mesh, const vessel::MeshField& field);
 
+/// The centrelines of a run's vessel, and the target on them if its scene has one.
+struct RunGoal {
+  const vessel::CentrelineTree& tree;
+  std::optional<sim::Target> target;
+};
+
+/// The target and how far the tip is from it; null without a target.
+[[nodiscard]] nlohmann::ordered_json target_json(const SceneFile& scene, const RunGoal& goal,
+                                                 const Eigen::Vector3d& tip_mm);
+
 /// `summary.json`, schema 1. A number that is not finite becomes null.
 [[nodiscard]] std::string summary_json(const SceneFile& scene, const VesselMesh& mesh,
-                                       const vessel::MeshField& field, const RunStatistics& run,
-                                       const sim::Snapshot& last, std::uint64_t state_hash,
-                                       const CrossingVerdict& verdict, const MachineFacts& machine);
+                                       const vessel::MeshField& field, const RunGoal& goal,
+                                       const RunStatistics& run, const sim::Snapshot& last,
+                                       std::uint64_t state_hash, const CrossingVerdict& verdict,
+                                       const MachineFacts& machine);
 
 }  // namespace endowire::io

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "endowire/rod/instrument.hpp"
+#include "endowire/sim/event.hpp"
 #include "endowire/sim/scene.hpp"
 #include "endowire/sim/snapshot.hpp"
 #include "endowire/sim/state.hpp"
@@ -12,14 +13,6 @@
 #include "endowire/vessel/field.hpp"
 
 namespace endowire::sim {
-
-enum class EventKind { snap, perforation, kink, exit, too_narrow, hand_slip, not_converged };
-
-struct Event {
-  EventKind kind = EventKind::snap;
-  double value = 0.0;  ///< force [N], curvature [1/mm], opening number, slip [mm], … as the kind says
-  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
-};
 
 /// What one step did: numbers only, no allocation but the events.
 struct StepReport {
@@ -41,6 +34,7 @@ struct StepReport {
   double max_wall_deflection_mm = 0.0;
   double max_force_5mm_n = 0.0;  ///< wall force summed over a sliding 5 mm window, largest
   double tip_force_n = 0.0;      ///< wall force within the last 5 mm, tip cap included
+  /// What this step showed, again in every step that shows it: EventWatch tells each event once.
   std::vector<Event> events;
 };
 

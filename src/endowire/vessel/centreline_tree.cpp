@@ -202,6 +202,10 @@ Index CentrelineTree::lumen_branch(const CentrelinePlace& place) const {
   return branch;
 }
 
+Index CentrelineTree::branch_at(const Vector3d& point_mm) const {
+  return branches_.empty() ? -1 : lumen_branch(nearest(point_mm).place);
+}
+
 double CentrelineTree::from_root_mm(const CentrelinePlace& place) const {
   const CentrelineBranch& branch = branches_[at(place.branch)];
   return branch.from_root_mm + std::clamp(place.arc_mm, 0.0, branch.length_mm);

@@ -136,6 +136,8 @@ class CentrelineTree {
   [[nodiscard]] CentrelineState state_at(const CentrelinePlace& place) const;
   /// The branch whose lumen a place lies in: before the ostium of a branch that is still its parent's.
   [[nodiscard]] std::int32_t lumen_branch(const CentrelinePlace& place) const;
+  /// The branch whose lumen a point lies in; -1: the tree has none.
+  [[nodiscard]] std::int32_t branch_at(const Eigen::Vector3d& point_mm) const;
   [[nodiscard]] double from_root_mm(const CentrelinePlace& place) const;
 
   /// Length of the way between two places along the tree; infinity between separate trees.

@@ -98,6 +98,46 @@ TEST(SceneFile, VesselAndInstrumentPathsAreRelativeToTheScene) {
   EXPECT_EQ(scene.instrument.model, "hydrophilic_035_angled");
 }
 
+TEST(SceneFile, ATargetNamesABranchOrAPoint) {
+  EXPECT_FALSE(parse_scene(good, "s.toml", library).target);
+  SceneFile scene = parse_scene(good +
+                                    "[target]\nname = \"left carotid\"\nbranch = \"1.3\"\nbeyond_ostium_mm = "
+                                    "60.0\nwithin_radii = 1.0\n",
+                                "s.toml", library);
+  ASSERT_TRUE(scene.target);
+  EXPECT_EQ(scene.target->name, "left carotid");
+  EXPECT_EQ(scene.target->branch, "1.3");
+  EXPECT_EQ(scene.target->beyond_ostium_mm, 60.0);
+  EXPECT_EQ(scene.target->within_radii, 1.0);
+  scene = parse_scene(good + "[target]\nnear_mm = [1, 2, 3]\n", "s.toml", library);
+  ASSERT_TRUE(scene.target);
+  EXPECT_TRUE(scene.target->branch.empty());
+  EXPECT_EQ(scene.target->near_mm, Eigen::Vector3d(1, 2, 3));
+  EXPECT_FALSE(scene.target->beyond_ostium_mm);
+}
+
+TEST(SceneFile, ThePerforationThresholdSaysWhereItComesFrom) {
+  EXPECT_EQ(parse_scene(good, "s.toml", library).perforation_source.rfind("estimate: ", 0), 0U);
+  const std::string own = good + "[wall]\nperforation_force_n = 0.8\n";
+  EXPECT_EQ(parse_scene(own, "s.toml", library).perforation_source, "the scene");
+  EXPECT_EQ(
+      parse_scene(own + "perforation_source = \"a bench test\"\n", "s.toml", library).perforation_source,
+      "a bench test");
+}
+
+// A recording is read where neither its vessel nor its instrument can be found.
+TEST(SceneFile, PartsOfARecordingStandInForFiles) {
+  std::string text = replaced("generate = \"tube_tree\"", "file = \"gone.stl\"");
+  text.replace(text.find("hydrophilic_035_straight"), 24, "gone");
+  RecordedParts parts{"moved.stl", parse_scene(good, "s.toml", library).instrument};
+  const SceneFile scene = parse_scene(text, "s.toml", parts);
+  EXPECT_EQ(scene.vessel.file, "moved.stl");
+  EXPECT_EQ(scene.instrument.model, "hydrophilic_035_straight");
+  EXPECT_EQ(commands_of(scene).size(), 68U);
+  parts.instrument.sections[0].length_mm = -1.0;
+  EXPECT_THROW(static_cast<void>(parse_scene(text, "s.toml", parts)), base::InputError);
+}
+
 struct BadScene {
   const char* from;
   const char* to;
@@ -116,13 +156,22 @@ TEST_P(BadScenes, AreRefusedInOneLineThatNamesFieldValueAndRange) {
 INSTANTIATE_TEST_SUITE_P(
     Table, BadScenes,
     ::testing::Values(
+        BadScene{"schema = 1", "schema = 1\ntarget = { within_radii = 1.0 }",
+                 "s.toml: target is given neither branch nor near_mm; must be given one of the two"},
+        BadScene{"schema = 1", "schema = 1\ntarget = { branch = \"1\", near_mm = [1, 2, 3] }",
+                 "s.toml: target is given both a branch and a point; must be given one of the two"},
+        BadScene{
+            "schema = 1", "schema = 1\ntarget = { branch = \"\" }",
+            "s.toml: target.branch is empty; must be the name of a branch, as endowire inspect lists it"},
+        BadScene{"schema = 1", "schema = 1\ntarget = { branch = \"1\", beyond_ostium_mm = -2.0 }",
+                 "s.toml: target.beyond_ostium_mm is -2; must be between 0 and 10000"},
         BadScene{"schema = 1", "schema = 2", "s.toml: schema is 2; must be 1"},
         BadScene{"schema = 1\n", "", "s.toml: schema is missing; must be 1"},
         BadScene{"schema = 1", "schema = 1.0", "s.toml: schema is 1; must be 1"},
         BadScene{"[vessel]", "[vessels]",
                  "s.toml: vessels is unknown; known here: schema, title, vessel, access, environment, wall, "
                  "solver, "
-                 "instrument, simulation, motion"},
+                 "instrument, simulation, motion, target"},
         BadScene{"generate = ", "genrate = ",
                  "s.toml: vessel.genrate is unknown; known here: file, generate, unit"},
         BadScene{"\"tube_tree\"", "\"tube\"", "s.toml: vessel.generate is \"tube\"; must be \"tube_tree\""},

@@ -5,6 +5,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "support/hand_made_trees.hpp"
+
 namespace endowire::io {
 namespace {
 
@@ -36,14 +38,14 @@ TEST(Percentile, IsTheNearestRank) {
 
 TEST(RunStatistics, CountsStepsSplitsFailuresAndSnapsApart) {
   RunStatistics run;
-  run.add(0.1, report(true, 0, 0.01), 100.0);
-  run.add(0.2, report(true, 1, 0.02), 200.0);
+  run.add(0.1, report(true, 0, 0.01), {}, 100.0);
+  run.add(0.2, report(true, 1, 0.02), {}, 200.0);
   sim::StepReport snapped = report(false, 2, 0.05);
   snapped.snapped = true;
   snapped.solve.termination = solve::Termination::stalled;
   snapped.events.push_back({sim::EventKind::snap, 1.5, {1, 2, 3}});
-  run.add(0.3, snapped, 900.0);
-  run.add(0.4, report(false, 0, 0.01), 100.0);
+  run.add(0.3, snapped, snapped.events, 900.0);
+  run.add(0.4, report(false, 0, 0.01), {}, 100.0);
   EXPECT_EQ(run.steps, 4U);
   EXPECT_EQ(run.converged_steps, 2U);
   EXPECT_EQ(run.split_steps, 2U);
@@ -62,8 +64,8 @@ TEST(RunStatistics, CountsStepsSplitsFailuresAndSnapsApart) {
 class Summary : public ::testing::Test {
  protected:
   Summary() : mesh_(cube()), field_(vessel::MeshField::build(mesh_.repaired, parameters())) {
-    run_.add(0.1, report(true, 0, 0.01), 100.0);
-    run_.add(0.2, report(true, 1, 0.03), 150.0);
+    run_.add(0.1, report(true, 0, 0.01), {}, 100.0);
+    run_.add(0.2, report(true, 1, 0.03), {}, 150.0);
     last_.points.resize(2);
     last_.points[0].position_mm = {1, 2, std::numeric_limits<double>::quiet_NaN()};
     last_.inserted_length_mm = 12.5;
@@ -88,13 +90,15 @@ class Summary : public ::testing::Test {
   }
 
   nlohmann::json written(const CrossingVerdict& verdict, const MachineFacts& machine) const {
-    return nlohmann::json::parse(
-        summary_json(scene_, mesh_, field_, run_, last_, 0xfedcba9876543210ULL, verdict, machine));
+    return nlohmann::json::parse(summary_json(scene_, mesh_, field_, {tree_, target_}, run_, last_,
+                                              0xfedcba9876543210ULL, verdict, machine));
   }
 
   SceneFile scene_;
   VesselMesh mesh_;
   vessel::MeshField field_;
+  vessel::CentrelineTree tree_;
+  std::optional<sim::Target> target_;
   RunStatistics run_;
   sim::Snapshot last_;
 };
@@ -118,6 +122,30 @@ TEST_F(Summary, HoldsWhatTheRunWas) {
   EXPECT_EQ(json["vessel"]["openings"].size(), 0U);
   EXPECT_EQ(json["machine"]["step_time_us"]["max"], 150.0);
   EXPECT_EQ(json["first_failure"], nullptr);
+}
+
+TEST_F(Summary, SaysHowFarTheTargetIs) {
+  EXPECT_TRUE(written({0, ""}, {})["target"].is_null());
+  EXPECT_TRUE(written({0, ""}, {})["instruments"][0]["tip_branch"].is_null());
+  tree_ = test::tree_with_side_vessel();
+  scene_.target = sim::TargetSpec{"left", "1.1:1", Eigen::Vector3d::Zero(), 20.0, 1.5};
+  target_ = sim::find_target(tree_, *scene_.target);
+  last_.points[0].position_mm = {0.0, 0.0, 40.0};
+  run_.events.push_back({2, 0.2, {sim::EventKind::new_branch, 2.0, {1, 2, 3}, 2}});
+  nlohmann::json json = written({0, ""}, {});
+  EXPECT_EQ(json["instruments"][0]["tip_branch"], "1:1");
+  EXPECT_EQ(json["target"]["name"], "left");
+  EXPECT_EQ(json["target"]["branch"], "1.1:1");
+  EXPECT_EQ(json["target"]["reached"], false);
+  EXPECT_NEAR(json["target"]["to_go_mm"].get<double>(), 45.0, 1e-9);
+  EXPECT_EQ(json["events"][0]["kind"], "new_branch");
+  EXPECT_EQ(json["events"][0]["branch"], "1.1:1");
+  EXPECT_EQ(json["events"][0]["unit"], "mm");
+  last_.points[0].position_mm = {30.0, 1.0, 60.0};
+  json = written({0, ""}, {});
+  EXPECT_EQ(json["target"]["reached"], true);
+  EXPECT_EQ(json["target"]["to_go_mm"], 0.0);
+  EXPECT_NEAR(json["target"]["offset_radii"].get<double>(), 0.5, 1e-9);
 }
 
 TEST_F(Summary, ANumberThatIsNotFiniteBecomesNull) {

@@ -6,6 +6,8 @@
 #include <new>
 #include <vector>
 
+#include "endowire/sim/event_watch.hpp"
+#include "support/hand_made_trees.hpp"
 #include "support/simulations.hpp"
 
 namespace {
@@ -100,6 +102,28 @@ TEST(Allocations, AStepAllocatesNothingAfterWarmUp) {
   EXPECT_EQ(allocations - before, 0) << "largest number in one step: " << largest;
   EXPECT_TRUE(converged);
   EXPECT_GT(inserted, 85.0) << "the wire did not go further than in the warm-up: nothing new was reached";
+}
+
+// Breaks with a table of the watch that grows, or an event list that is made anew.
+TEST(Allocations, TheWatchOfEventsAllocatesNothingOnceItsMemoryIsReserved) {
+  Simulation simulation(test::bent_tube(1.0), test::curved_tip_wire(), test::origin_access(), {});
+  EventWatch watch(std::make_shared<const vessel::CentrelineTree>(test::bent_tube_tree()));
+  watch.reserve(100, 100.0);
+  Snapshot snapshot;
+  test::run(simulation, 60, {1.0, 0.05});
+  simulation.snapshot(snapshot);
+  std::size_t told = 0;
+  long by_the_watch = 0;
+  for (int i = 0; i < 120; ++i) {
+    const Command command{i < 50 ? -1.0 : 1.0, 0.05};
+    const StepReport& report = simulation.step(command);
+    simulation.snapshot(snapshot);
+    const long before = allocations;
+    told += watch.after(command, report, snapshot).size();
+    by_the_watch += allocations - before;
+  }
+  EXPECT_EQ(by_the_watch, 0);
+  EXPECT_GT(told, 0U);
 }
 
 }  // namespace
