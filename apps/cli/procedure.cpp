@@ -61,6 +61,7 @@ void play(Procedure& procedure, sim::Simulation& simulation, std::span<const io:
           io::RunOutput& output, Progress& progress, const StepWatcher& watcher) {
   const auto count = static_cast<std::uint64_t>(commands.size());
   procedure.forces.reserve(commands.size());
+  procedure.history.emplace(count);
   sim::EventWatch events(procedure.centrelines);
   sim::Snapshot on_the_way;
   for (std::uint64_t step = 1; step <= count; ++step) {
@@ -70,8 +71,9 @@ void play(Procedure& procedure, sim::Simulation& simulation, std::span<const io:
     const sim::StepReport& report = simulation.step(timed.command);
     const double step_us = 1e6 * seconds_since(start);
     simulation.snapshot(procedure.last);
-    procedure.statistics.add(timed.time_s, report, events.after(timed.command, report, procedure.last),
-                             step_us);
+    const std::span<const sim::Event> begun = events.after(timed.command, report, procedure.last);
+    procedure.statistics.add(timed.time_s, report, begun, step_us);
+    procedure.history->add(step, timed.time_s, report, procedure.last, !begun.empty());
     procedure.forces.push_back({report.inserted_length_mm, report.push_force_n});
     for (int k = 0; k < simulation.waypoints(); ++k) {
       const double before_s = step > 1 ? commands[step - 2].time_s : 0.0;

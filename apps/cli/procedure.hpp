@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "endowire/io/picture.hpp"
+#include "endowire/io/run_history.hpp"
 #include "endowire/io/run_output.hpp"
 #include "endowire/io/scene_file.hpp"
 #include "endowire/io/statistics.hpp"
@@ -36,6 +37,7 @@ struct Procedure {
   double preparation_s = 0.0;
   io::RunStatistics statistics;
   std::vector<io::ForcePoint> forces;  ///< a point a step
+  std::optional<io::RunHistory> history;
   sim::Snapshot last;
   std::uint64_t state_hash = 0;
 };

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "crossings.hpp"
+#include "endowire/io/report.hpp"
 #include "endowire/io/summary.hpp"
 
 namespace endowire::cli {
@@ -67,17 +68,23 @@ Eigen::Vector3d tip_of(const Procedure& procedure) {
                                        : procedure.last.points.front().position_mm;
 }
 
+std::string title_of(const Procedure& procedure) {
+  return fs::path(procedure.scene.name).stem().string();
+}
+
+std::string subtitle_of(const Procedure& procedure) {
+  const fs::path& file = procedure.scene.vessel.file;
+  return fmt::format(
+      "{}, {:.0f} mm inserted into {}", procedure.scene.instrument.model, procedure.last.inserted_length_mm,
+      file.empty() ? procedure.vessel.source : (file.parent_path().filename() / file.filename()).string());
+}
+
 std::string picture_of(const Procedure& procedure, const io::CrossingVerdict& verdict) {
   const io::RunStatistics& statistics = procedure.statistics;
   const Eigen::Vector3d tip = tip_of(procedure);
   io::PictureContent content;
-  content.title = fs::path(procedure.scene.name).stem().string();
-  content.subtitle = fmt::format(
-      "{}, {:.0f} mm inserted into {}", procedure.scene.instrument.model, procedure.last.inserted_length_mm,
-      procedure.scene.vessel.file.empty()
-          ? procedure.vessel.source
-          : (procedure.scene.vessel.file.parent_path().filename() / procedure.scene.vessel.file.filename())
-                .string());
+  content.title = title_of(procedure);
+  content.subtitle = subtitle_of(procedure);
   content.numbers = {
       {"Inserted", fmt::format("{:.1f} mm", procedure.last.inserted_length_mm)},
       {"Tip", fmt::format("{:.1f}, {:.1f}, {:.1f} mm", tip.x(), tip.y(), tip.z())},
@@ -139,10 +146,16 @@ void write_results(const Procedure& procedure, const fs::path& triangles, double
   output.file("wire.svg", picture_of(procedure, verdict));
   const io::MachineFacts machine{peak_mb, procedure.preparation_s,
                                  procedure.prepared.origin == io::FieldOrigin::cached, instruction_set()};
-  output.file("summary.json",
-              io::summary_json(procedure.scene, procedure.vessel, *procedure.prepared.field,
-                               {*procedure.centrelines, procedure.target}, procedure.statistics,
-                               procedure.last, procedure.state_hash, verdict, machine));
+  const std::string summary =
+      io::summary_json(procedure.scene, procedure.vessel, *procedure.prepared.field,
+                       {*procedure.centrelines, procedure.target}, procedure.statistics, procedure.last,
+                       procedure.state_hash, verdict, machine);
+  progress.stage("writing the report …");
+  output.file("report.html",
+              io::report_html({title_of(procedure), subtitle_of(procedure), summary,
+                               procedure.vessel.repaired.mesh, *procedure.history, procedure.scene.access,
+                               procedure.scene.simulation.gravity_m_per_s2}));
+  output.file("summary.json", summary);
   progress.clear();
   if (!options.quiet) print_table(procedure, verdict, machine, output);
 }

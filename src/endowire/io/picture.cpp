@@ -9,6 +9,7 @@
 
 #include "endowire/io/lumen_shading.hpp"
 #include "endowire/io/png.hpp"
+#include "endowire/io/view.hpp"
 
 // The drawing, in pixels:
 //
@@ -390,31 +391,13 @@ std::string axis_name(const Vector3d& direction) {
   return "";
 }
 
-/// Up is the long axis of the vessel, away from the access; the front is seen along the weight, as on a
-/// patient who lies on the back, or along the vessel's shortest axis when there is no weight.
 std::array<View, 2> views_of(const Eigen::AlignedBox3d& box, const Vector3d& access_mm,
                              const Vector3d& gravity) {
-  const Vector3d size = box.sizes();
-  Vector3d forward = gravity;
-  if (!(forward.norm() > 0.0)) {
-    Eigen::Index shortest = 0;
-    size.minCoeff(&shortest);
-    forward = Vector3d::Unit(shortest);
-  }
-  forward.normalize();
-  Vector3d up = Vector3d::Zero();
-  double longest = -1.0;
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const Vector3d unit = Vector3d::Unit(axis);
-    if (std::abs(unit.dot(forward)) > 0.7 || size[axis] <= longest) continue;
-    longest = size[axis];
-    up = unit.dot(box.center() - access_mm) < 0.0 ? Vector3d(-unit) : unit;
-  }
-  up = (up - up.dot(forward) * forward).normalized();
+  const Directions directions = directions_of(box, access_mm, gravity);
   std::array<View, 2> views;
-  views[0].right = forward.cross(up);
-  views[1].right = forward;
-  views[0].up = views[1].up = up;
+  views[0].right = directions.forward.cross(directions.up);
+  views[1].right = directions.forward;
+  views[0].up = views[1].up = directions.up;
   return views;
 }
 

@@ -24,7 +24,7 @@ fs::path make_ready(const fs::path& folder) {
     throw InputError(
         fmt::format("{}: cannot be made as a folder for the results", one_line(folder.string())));
   for (const char* name :
-       {"summary.json", "wire.vtp", "wire.pvd", "wire.svg", "vessel.stl", "recording.jsonl"})
+       {"summary.json", "report.html", "wire.vtp", "wire.pvd", "wire.svg", "vessel.stl", "recording.jsonl"})
     fs::remove(folder / name, error);
   std::vector<fs::path> old_steps;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / steps_folder, error))

@@ -18,8 +18,8 @@ namespace endowire::io {
 ///   recording.jsonl            as it happens
 ///   steps/wire_000001.vtp …    as it happens, with VTK
 ///   wire.pvd, wire.vtp         at the end, with VTK
-///   wire.svg, summary.json     at the end; summary.json last: a folder without it holds a run that was cut
-///   off
+///   wire.svg, report.html, summary.json   at the end; summary.json last: a folder without it holds a run that
+///                              was cut off
 ///
 /// Make it once the input is known to be good: it removes the files of an earlier run in the folder, by these
 /// names and no others.
