@@ -4,21 +4,18 @@
 
 namespace endowire::io {
 
-std::string base64(std::span<const std::byte> bytes) {
-  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t k) {
-      return k < bytes.size() ? std::to_integer<std::uint32_t>(bytes[k]) : 0U;
-    };
-    const std::uint32_t three = byte(i) << 16U | byte(i + 1) << 8U | byte(i + 2);
-    text += digits[three >> 18U];
-    text += digits[three >> 12U & 63U];
-    text += i + 1 < bytes.size() ? digits[three >> 6U & 63U] : '=';
-    text += i + 2 < bytes.size() ? digits[three & 63U] : '=';
+    std::uint32_t block = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      block = (block << 8) | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    for (std::size_t k = 0; k < 4; ++k)
+      out += i + k <= bytes.size() ? alphabet[(block >> (18 - 6 * k)) & 63U] : '=';
   }
-  return text;
+  return out;
 }
 
 }  // namespace endowire::io

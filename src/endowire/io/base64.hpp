@@ -1,19 +1,18 @@
 #pragma once
 
-#include <cstddef>
-#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace endowire::io {
 
-/// RFC 4648, with padding.
-[[nodiscard]] std::string base64(std::span<const std::byte> bytes);
+/// Base 64 (RFC 4648), with padding.
+[[nodiscard]] std::string base64(std::string_view bytes);
 
-/// The values' own bytes, little-endian on every machine this builds for.
+/// The values' own bytes: little-endian on every machine that this builds for.
 template <class Value>
 [[nodiscard]] std::string base64(const std::vector<Value>& values) {
-  return base64(std::as_bytes(std::span(values)));
+  return base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)});
 }
 
 }  // namespace endowire::io

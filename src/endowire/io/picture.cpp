@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "endowire/io/base64.hpp"
 #include "endowire/io/lumen_shading.hpp"
 #include "endowire/io/png.hpp"
 #include "endowire/io/view.hpp"

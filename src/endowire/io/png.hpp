@@ -21,7 +21,4 @@ struct IndexedImage {
 /// 1951 §3.2.6).
 [[nodiscard]] std::string encode_png(const IndexedImage& image);
 
-/// Base 64 (RFC 4648), with padding.
-[[nodiscard]] std::string base64(std::string_view bytes);
-
 }  // namespace endowire::io

@@ -97,8 +97,8 @@ json wire_json(const RunHistory& history) {
 
 json summary_of(const std::string& text) {
   json summary = json::parse(text);
+  summary["events_in_all"] = summary["events"].size();  // first: a new key moves the others
   json& events = summary["events"];
-  summary["events_in_all"] = events.size();
   if (events.size() > max_events) events.erase(events.begin() + max_events, events.end());
   return summary;
 }

@@ -100,15 +100,6 @@ TEST(Png, ChecksumsAreThoseOfTheStandards) {
   EXPECT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");
 }
 
-TEST(Base64, MatchesRfc4648) {
-  EXPECT_EQ(base64(""), "");
-  EXPECT_EQ(base64("f"), "Zg==");
-  EXPECT_EQ(base64("fo"), "Zm8=");
-  EXPECT_EQ(base64("foo"), "Zm9v");
-  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
-  EXPECT_EQ(base64("\xff\xfe"), "//4=");
-}
-
 TEST(LumenShading, TwoLayersTakeAwayMoreThanOneAndNothingIsDrawnBeside) {
   vessel::TriangleMesh mesh;
   mesh.vertices_mm = {{1, 0, 1}, {9, 0, 1}, {1, 0, 9}, {1, 5, 1}, {4, 5, 1}, {1, 5, 4}};

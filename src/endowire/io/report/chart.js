@@ -42,7 +42,9 @@ class Chart {
     this.svg.style.height = height + "px";
     const finite = this.lines.flatMap(line => [Math.max(...chunks(line.values, Math.max)), Math.min(...chunks(line.values, Math.min))])
                              .filter(Number.isFinite);
-    const most = Math.max(0, ...finite), least = Math.min(0, ...finite);
+    const most = Math.max(0, ...finite);
+    let least = Math.min(0, ...finite);
+    if (least > -0.03 * most) least = 0;  // not a whole line of the grid for a hair below zero
     const step = roundUp((most - least) / 3 || 1);
     this.high = Math.max(step, Math.ceil(most / step - 1e-9) * step);
     this.low = Math.floor(least / step + 1e-9) * step;

@@ -85,7 +85,7 @@ function fillEvents() {
     const button = element("button");
     button.type = "button";
     button.append(element("i"), element("span", "", event.label),
-                  element("b", "", withUnit(event.kind === "exit" ? String(event.value) : digits(event.value), event.unit)),
+                  element("b", "", event.figure),
                   element("time", "", fixed(event.time_s, 1) + thin + "s"));
     button.addEventListener("click", () => show(event.at));
     row.append(button);
@@ -97,10 +97,9 @@ function fillEvents() {
 }
 
 function fillLegend() {
-  byId("ramp-ticks").replaceChildren(...[0, 0.25, 0.5, 0.75, 1].map(place => {
-    // The square root of the force runs evenly along the colours.
-    const tick = element("span", "", (place === 1 ? "\u2265" : "") + digits(most_force * place * place));
-    tick.style.left = 100 * place + "%";
+  byId("ramp-ticks").replaceChildren(...[0, 0.1, 0.25, 0.5, 1].map(part => {
+    const tick = element("span", "", (part === 1 ? "\u2265" + thin : "") + Number((part * most_force).toPrecision(2)));
+    tick.style.left = 100 * Math.sqrt(part) + "%";  // the square root of the force runs evenly along the colours
     return tick;
   }));
 }
@@ -138,10 +137,13 @@ function redraw() {
   drawing = true;
   requestAnimationFrame(() => {
     drawing = false;
-    scene.draw(lensBox());
-    drawOverlay();
-    if (location.hash.includes("check")) document.documentElement.dataset.drawn = scene.drawnPixels();
+    drawNow();
   });
+}
+
+function drawNow() {
+  scene.draw(lensBox());
+  drawOverlay();
 }
 
 function drawOverlay() {
@@ -165,7 +167,7 @@ function drawOverlay() {
   byId("scale-bar").style.width = bar * per_mm + "px";
   byId("scale-text").textContent = bar + thin + "mm";
   byId("lens").hidden = view === "tip" || !scene.frame;
-  byId("lens-scale").textContent = lens_mm + thin + "mm";
+  byId("lens-scale").textContent = lens_mm + thin + "mm wide";
 }
 
 function setView(name) {
@@ -173,11 +175,8 @@ function setView(name) {
   for (const button of document.querySelectorAll("[data-view]"))
     button.setAttribute("aria-pressed", button.dataset.view === name);
   if (!scene) return;
-  scene.room = byId("view").clientWidth < 560 ? 58 : 0;
-  scene.home();
-  scene.camera.yaw = name === "side" ? Math.PI / 2 : 0;
-  if (name !== "front") scene.fit();
-  if (name === "side") { scene.camera.centre = times(0.5, add(scene.low, scene.high)); scene.fit(); }
+  scene.room = byId("view").clientWidth < 560 ? { top: 58, bottom: 74 } : { top: 24, bottom: 24 };
+  scene.home(name === "side" ? Math.PI / 2 : 0);
   if (name === "tip") {
     scene.camera.pixels_per_mm = Math.min(byId("view").clientWidth, byId("view").clientHeight) / 60;
     scene.camera.centre = scene.tip();
@@ -333,6 +332,10 @@ function readHash() {
   setAxis(wanted.get("axis") === "time" ? "time_s" : "inserted_mm");
   show(wanted.has("step") ? lastNotAbove(series.step, Number(wanted.get("step"))) : series.count - 1);
   setView(["front", "side", "tip"].includes(wanted.get("view")) ? wanted.get("view") : "front");
+  if (scene && wanted.has("check")) {  // for a test without a screen, which gets no animation frames
+    drawNow();
+    document.documentElement.dataset.drawn = scene.drawnPixels();
+  }
 }
 
 fillHead();

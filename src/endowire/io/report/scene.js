@@ -32,7 +32,7 @@ class Scene {
     this.upload(this.sheath, tubeOf(steps + 1, line, new Float32Array(steps + 1).fill(1.1),
                                     new Float32Array(steps + 1).fill(-1)));
     this.ramp = gl.createTexture();
-    this.home();
+    this.room = { top: 24, bottom: 24 };  // what lies over the edges of the canvas, in pixels
   }
 
   makeVessel() {
@@ -81,22 +81,18 @@ class Scene {
     target.count = index.length;
   }
 
-  /** The whole vessel, from the front. */
-  home() {
-    this.camera.yaw = 0;
+  /** The whole vessel. @param yaw  0 from the front */
+  home(yaw) {
+    this.camera.yaw = yaw;
     this.camera.pitch = 0;
-    this.camera.centre = times(0.5, add(this.low, this.high));
-    this.fit();
-  }
-
-  fit() {
     const [right, up] = this.camera.axes();
     const size = sub(this.high, this.low);
     const across = axis => Math.abs(axis[0]) * size[0] + Math.abs(axis[1]) * size[1] + Math.abs(axis[2]) * size[2];
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    const bottom = this.room || 0;  // what lies over the lower edge
-    this.camera.pixels_per_mm = Math.min((width - 48) / across(right), (height - 48 - bottom) / across(up));
-    this.camera.centre = add(this.camera.centre, times(-0.5 * bottom / this.camera.pixels_per_mm, up));
+    const { top, bottom } = this.room;
+    this.camera.pixels_per_mm = Math.min((width - 48) / across(right), (height - top - bottom) / across(up));
+    this.camera.centre = add(times(0.5, add(this.low, this.high)),
+                             times(0.5 * (top - bottom) / this.camera.pixels_per_mm, up));
   }
 
   show(frame) {
@@ -161,7 +157,7 @@ class Scene {
       gl.uniformMatrix4fv(this.glass.at.matrix, false, matrix);
       gl.uniform3fv(this.glass.at.out_of_picture, out);
       gl.uniform3fv(this.glass.at.tint, rgb(this.colours.glass));
-      gl.uniform2f(this.glass.at.opacity, 0.045 * share, 0.5 * share);
+      gl.uniform2f(this.glass.at.opacity, 0.06 * share, 0.6 * share);
       gl.enable(gl.BLEND);
       gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
       gl.depthMask(false);

@@ -17,6 +17,8 @@ const event_kinds = {
 const events = run.summary.events.map(event => ({
   ...event,
   label: (event_kinds[event.kind] || [event.kind])[0] + (event.branch ? " " + event.branch : ""),
+  figure: event.kind === "exit" ? String(event.value)
+    : (event.kind === "new_branch" ? "radius " : "") + withUnit(digits(event.value), event.unit),
   tone: (event_kinds[event.kind] || ["", "calm"])[1],
   at: lastNotAbove(series.step, event.step),
 }));
