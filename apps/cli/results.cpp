@@ -68,10 +68,6 @@ Eigen::Vector3d tip_of(const Procedure& procedure) {
                                        : procedure.last.points.front().position_mm;
 }
 
-std::string title_of(const Procedure& procedure) {
-  return fs::path(procedure.scene.name).stem().string();
-}
-
 std::string subtitle_of(const Procedure& procedure) {
   const fs::path& file = procedure.scene.vessel.file;
   return fmt::format(
@@ -83,7 +79,7 @@ std::string picture_of(const Procedure& procedure, const io::CrossingVerdict& ve
   const io::RunStatistics& statistics = procedure.statistics;
   const Eigen::Vector3d tip = tip_of(procedure);
   io::PictureContent content;
-  content.title = title_of(procedure);
+  content.title = procedure.scene.title;
   content.subtitle = subtitle_of(procedure);
   content.numbers = {
       {"Inserted", fmt::format("{:.1f} mm", procedure.last.inserted_length_mm)},
@@ -152,7 +148,7 @@ void write_results(const Procedure& procedure, const fs::path& triangles, double
                        procedure.state_hash, verdict, machine);
   progress.stage("writing the report …");
   output.file("report.html",
-              io::report_html({title_of(procedure), subtitle_of(procedure), summary,
+              io::report_html({procedure.scene.title, subtitle_of(procedure), summary,
                                procedure.vessel.repaired.mesh, *procedure.history, procedure.scene.access,
                                procedure.scene.simulation.gravity_m_per_s2}));
   output.file("summary.json", summary);

@@ -42,20 +42,63 @@ std::string root_attribute(const std::string& dom, const std::string& name) {
                                                                                            : "";
 }
 
-TEST(ReportPage, IsDrawnByABrowserAtTwoSizes) {
-  const std::string program = browser();
-  if (program.empty()) GTEST_SKIP() << "no browser here (chromium, chromium-browser, google-chrome)";
-  const TemporaryFolder folder;
-  test::write_text(folder / "v.stl", test::tube_stl(4.0, 60.0));
-  test::write_text(folder / "s.toml", test::tube_scene);
-  ASSERT_EQ(
-      run_endowire(folder, {"simulate", "s.toml", "--out", "out", "--cache", test::test_cache(), "--quiet"})
-          .code,
-      0);
+/// Does what a user does and writes down what the page makes of it.
+const char* const user = R"(<script>
+  const root = document.documentElement.dataset;
+  root.errors = "";
+  window.addEventListener("error", event => { root.errors += event.message + ";"; });
+  const view = document.getElementById("view"), box = view.getBoundingClientRect();
+  const pointer = (kind, x, more) => view.dispatchEvent(new PointerEvent(kind,
+    { pointerId: 1, clientX: box.left + x, clientY: box.top + 90, buttons: 1, bubbles: true, ...more }));
+  view.setPointerCapture = () => {};
+  pointer("pointerdown", 50);
+  pointer("pointermove", 120);
+  pointer("pointermove", 150, { shiftKey: true });
+  pointer("pointerup", 150);
+  view.dispatchEvent(new WheelEvent("wheel", { deltaY: -300, clientX: box.left + 80, clientY: box.top + 80 }));
+  for (const name of ["side", "tip", "front"]) document.querySelector(`[data-view=${name}]`).click();
+  document.querySelector("[data-axis=time_s]").click();
+  const scrub = document.getElementById("scrub"), when = document.getElementById("when");
+  scrub.value = 4;
+  scrub.dispatchEvent(new Event("input"));
+  root.scrubbed = when.textContent;
+  for (let i = 0; i < 2; i++)
+    document.body.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight", bubbles: true }));
+  root.stepped = when.textContent;
+  document.getElementById("theme").click();
+  document.getElementById("play").click();
+</script>)";
+
+class ReportPage : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    program_ = browser();
+    if (program_.empty()) GTEST_SKIP() << "no browser here (chromium, chromium-browser, google-chrome)";
+    test::write_text(folder_ / "v.stl", test::tube_stl(4.0, 60.0));
+    test::write_text(folder_ / "s.toml", test::tube_scene);
+    const Outcome outcome = run_endowire(
+        folder_, {"simulate", "s.toml", "--out", "out", "--cache", test::test_cache(), "--quiet"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+  }
+  TemporaryFolder folder_;
+  std::string program_;
+};
+
+TEST_F(ReportPage, AnswersToTheUsersHands) {
+  std::string page = test::read_text(folder_ / "out/report.html");
+  page.insert(page.find("</body>"), user);
+  test::write_text(folder_ / "used.html", page);
+  const std::string dom = page_in(program_, folder_, "used.html", "1000,800");
+  EXPECT_EQ(root_attribute(dom, "data-errors"), "");
+  EXPECT_NE(root_attribute(dom, "data-scrubbed").find("step 5"), std::string::npos) << dom.substr(0, 400);
+  EXPECT_NE(root_attribute(dom, "data-stepped").find("step 7"), std::string::npos) << "two keys further";
+}
+
+TEST_F(ReportPage, IsDrawnByABrowserAtTwoSizes) {
   for (const char* size : {"1400,900", "390,844"}) {
-    const std::string dom = page_in(program, folder, "out/report.html#check&step=12&theme=light", size);
+    const std::string dom = page_in(program_, folder_, "out/report.html#check&step=12&theme=light", size);
     ASSERT_EQ(root_attribute(dom, "data-ready"), "true") << "the scripts did not run to their end";
-    if (root_attribute(dom, "data-view") == "none") GTEST_SKIP() << program << " offers no WebGL 2 here";
+    if (root_attribute(dom, "data-view") == "none") GTEST_SKIP() << program_ << " offers no WebGL 2 here";
     EXPECT_GT(std::stol("0" + root_attribute(dom, "data-drawn")), 2'000)
         << size << ": pixels of vessel and wire";
     EXPECT_NE(dom.find("<h1 id=\"title\">s</h1>"), std::string::npos);

@@ -257,11 +257,11 @@ SceneFile read_scene(const std::string& text, const std::string& name,
                        {"schema", "title", "vessel", "access", "environment", "wall", "solver", "instrument",
                         "simulation", "motion", "target"});
   static_cast<void>(root.integer("schema", 1, 1));
-  static_cast<void>(root.string_or("title", "", "a text"));
   const fs::path folder = fs::path(name).parent_path();
   SceneFile scene;
   scene.name = name;
   scene.text = text;
+  scene.title = root.string_or("title", fs::path(name).stem().string(), "a text");
   read_access(root, scene);
   read_simulation(root, scene);
   scene.vessel = read_vessel(root, folder, recorded);

@@ -22,8 +22,9 @@ struct VesselSource {
 
 /// A procedure as written down in a scene file; units as in sim/scene.hpp.
 struct SceneFile {
-  std::string name;  ///< the path as given: what messages begin with
-  std::string text;  ///< the file, as read
+  std::string name;   ///< the path as given: what messages begin with
+  std::string text;   ///< the file, as read
+  std::string title;  ///< for people; the file's name where the scene gives none
   VesselSource vessel;
   std::optional<int> opening;  ///< access through an opening, counted from 1; else `access` holds
   sim::Access access;

@@ -98,6 +98,12 @@ TEST(SceneFile, VesselAndInstrumentPathsAreRelativeToTheScene) {
   EXPECT_EQ(scene.instrument.model, "hydrophilic_035_angled");
 }
 
+TEST(SceneFile, WithoutATitleTheFilesNameIsOne) {
+  EXPECT_EQ(parse_scene(good, "folder/s.toml", library).title, "s");
+  EXPECT_EQ(parse_scene("title = \"To the left carotid\"\n" + good, "s.toml", library).title,
+            "To the left carotid");
+}
+
 TEST(SceneFile, ATargetNamesABranchOrAPoint) {
   EXPECT_FALSE(parse_scene(good, "s.toml", library).target);
   SceneFile scene = parse_scene(good +

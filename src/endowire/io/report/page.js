@@ -97,7 +97,7 @@ function fillEvents() {
 }
 
 function fillLegend() {
-  byId("ramp-ticks").replaceChildren(...[0, 0.1, 0.25, 0.5, 1].map(part => {
+  byId("ramp-ticks").replaceChildren(...[0, 0.1, 0.4, 1].map(part => {
     const tick = element("span", "", (part === 1 ? "\u2265" + thin : "") + Number((part * most_force).toPrecision(2)));
     tick.style.left = 100 * Math.sqrt(part) + "%";  // the square root of the force runs evenly along the colours
     return tick;
@@ -175,7 +175,7 @@ function setView(name) {
   for (const button of document.querySelectorAll("[data-view]"))
     button.setAttribute("aria-pressed", button.dataset.view === name);
   if (!scene) return;
-  scene.room = byId("view").clientWidth < 560 ? { top: 58, bottom: 74 } : { top: 24, bottom: 24 };
+  scene.room = byId("view").clientWidth < 560 ? { top: 58, bottom: 88 } : { top: 24, bottom: 24 };
   scene.home(name === "side" ? Math.PI / 2 : 0);
   if (name === "tip") {
     scene.camera.pixels_per_mm = Math.min(byId("view").clientWidth, byId("view").clientHeight) / 60;
