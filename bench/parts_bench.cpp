@@ -2,11 +2,13 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "endowire/contact/contact_set.hpp"
 #include "endowire/math/band_ldlt.hpp"
 #include "endowire/rod/chain.hpp"
+#include "endowire/sim/self_overlap.hpp"
 #include "endowire/vessel/analytic_field.hpp"
 #include "endowire/vessel/mesh_field.hpp"
 #include "endowire/vessel/repair.hpp"
@@ -158,6 +160,21 @@ void detect_in_mesh_tube(benchmark::State& state) {
   detect(state, mesh_tube());
 }
 
+/// A wire of 1 mm rods that winds through a body and lies clear of itself.
+void self_overlap(benchmark::State& state) {
+  std::vector<sim::SnapshotPoint> points(static_cast<std::size_t>(rods_of(state)) + 1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double s = static_cast<double>(i);
+    points[i].position_mm = {0.8 * s, 40.0 * std::sin(0.015 * s), 40.0 * std::cos(0.01 * s)};
+    points[i].arc_mm = s;
+    points[i].radius_mm = 0.4445;
+  }
+  sim::SelfOverlap overlap;
+  for (auto _ : state) benchmark::DoNotOptimize(overlap.nearest(points));
+  state.SetComplexityN(state.range(0));
+}
+
+BENCHMARK(self_overlap)->Arg(100)->Arg(300)->Arg(1000)->Arg(2600)->Complexity(benchmark::oN);
 BENCHMARK(joint_derivatives)->Arg(100)->Arg(300)->Arg(1000)->Complexity(benchmark::oN);
 BENCHMARK(band_factorise)->Arg(100)->Arg(300)->Arg(1000)->Complexity(benchmark::oN);
 BENCHMARK(band_solve)->Arg(100)->Arg(300)->Arg(1000)->Complexity(benchmark::oN);
