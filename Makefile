@@ -3,7 +3,7 @@
 JOBS ?= $(shell nproc)
 
 help:
-	@echo "make run        push a wire through a vessel; shape, forces, picture in out/run"
+	@echo "make run        push a wire through a vessel; report.html, shape, forces, picture in out/run"
 	@echo "make test       everything that is checked, at most 45 minutes on 2 cores"
 	@echo "make test-long  sweeps that take longer"
 	@echo "make bench      speed"
