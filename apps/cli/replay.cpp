@@ -80,6 +80,7 @@ int replay(const Options& options) {
   Progress progress(options.run.quiet);
   Procedure procedure = prepare(io::recorded_scene(recording.header, options.recording, options.vessel),
                                 options.run.cache, progress);
+  io::check_recorded_vessel(recording.header, options.recording, procedure.vessel.content_hash);
   procedure.vessel.source = recording.header.vessel;  // wherever it was found: the results are the same
   io::RecordingHeader header = recording.header;
   header.version = io::version;

@@ -22,11 +22,11 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
-void check_content(std::uint64_t content, const RecordingHeader& header, const std::string& recording,
-                   const std::string& vessel) {
-  if (content == header.vessel_hash) return;
-  throw InputError(fmt::format("{}: vessel {} has content {}; must be {}, as it was recorded", recording,
-                               vessel, hash_text(content), hash_text(header.vessel_hash)));
+[[noreturn]] void refuse_content(std::uint64_t content, const RecordingHeader& header,
+                                 const fs::path& recording, const std::string& vessel) {
+  throw InputError(fmt::format("{}: vessel {} has content {}; must be {}, as it was recorded",
+                               one_line(recording.string()), one_line(vessel), hash_text(content),
+                               hash_text(header.vessel_hash)));
 }
 
 fs::path find_mesh(const RecordingHeader& header, const fs::path& recording_path, const fs::path& given) {
@@ -48,8 +48,7 @@ fs::path find_mesh(const RecordingHeader& header, const fs::path& recording_path
     throw InputError(fmt::format(
         "{}: vessel {} (content {}) was not found; --vessel FILE tells where it lies now", recording,
         one_line((given.empty() ? recorded : given).string()), hash_text(header.vessel_hash)));
-  check_content(content, header, recording, one_line(other.string()));
-  return other;
+  refuse_content(content, header, recording_path, other.string());
 }
 
 }  // namespace
@@ -69,9 +68,12 @@ SceneFile recorded_scene(const RecordingHeader& header, const fs::path& recordin
   if (generated != !scene.vessel.generate.empty())
     throw InputError(
         fmt::format("{}: vessel is {}, which is not that of its scene", recording, one_line(header.vessel)));
-  if (generated)
-    check_content(generate_vessel(scene.vessel.generate).content_hash, header, recording, header.vessel);
   return scene;
+}
+
+void check_recorded_vessel(const RecordingHeader& header, const fs::path& recording_path,
+                           std::uint64_t content_hash) {
+  if (content_hash != header.vessel_hash) refuse_content(content_hash, header, recording_path, header.vessel);
 }
 
 std::vector<TimedCommand> recorded_commands(const Recording& recording) {
