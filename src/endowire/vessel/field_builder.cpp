@@ -22,7 +22,7 @@ constexpr double base_spacing_limit_mm = 1.6;    // near walls; what error_targe
 constexpr double base_cells_per_radius = 2.5;    // so that every lumen is seen at all
 constexpr double radius_floor_spacing_mm = 0.2;  // finer only where the error asks for it
 constexpr double screen_fraction = 1.0;  // cells straighter than this part of the tolerance are not tested
-constexpr std::size_t long_list = 100;   // candidates that take longer to scan than the tree to search
+constexpr std::size_t long_list = 1000;  // candidates that take longer to scan than the tree to search
 constexpr double deep_mm = 3.0;          // from the wall: no instrument touches it from there
 constexpr std::size_t max_roots = 2'000'000;   // 8 MB of references; a longer vessel gets larger root cells
 constexpr std::size_t report_points = 50'000;  // of the final error measurement
@@ -156,7 +156,7 @@ class MeshFieldBuilder {
       split(cell);
       return;
     }
-    add_brick(cell);
+    add_brick(cell, s);
   }
 
   void split(const Cell& cell) {
@@ -191,7 +191,8 @@ class MeshFieldBuilder {
   }
 
   /// Samples a brick and, where its test points miss, notes it for splitting.
-  void add_brick(const Cell& cell) {
+  /// @param middle  the surface nearest to its middle
+  void add_brick(const Cell& cell, const ExactSurface::Sample& middle) {
     std::size_t index = 0;
     if (!unused_.empty()) {
       index = unused_.back();
@@ -204,7 +205,7 @@ class MeshFieldBuilder {
     }
     cells_[index] = cell;
     reference(cell.slot) = static_cast<MeshField::Reference>(-1 - 2 * static_cast<std::int64_t>(index));
-    sample(cell);
+    sample(cell, middle);
     settle_signs(cell);
     store(index);
     if (cell.level == 0) return;
@@ -217,18 +218,16 @@ class MeshFieldBuilder {
   }
 
   /// Exact distances at the nodes; the brick shares one search.
-  void sample(const Cell& cell) {
+  void sample(const Cell& cell, const ExactSurface::Sample& middle) {
     const double spacing = size_mm(cell) / MeshField::cells;
     const Vector3d origin = origin_mm(cell);
     const double size = size_mm(cell);
     const Vector3d centre = origin + Vector3d::Constant(0.5 * size);
     const double reach = 0.5 * std::sqrt(3.0) * size;
-    const double nearest = surface_.bvh().nearest(centre).distance_mm;
-    surface_.bvh().collect(centre, nearest + 2.0 * reach + 1e-9, found_);
+    surface_.bvh().collect(centre, std::abs(middle.distance_mm) + 2.0 * reach + 1e-9, found_);
     surface_.pack(centre, found_, candidates_);
     hint_ = 0;
-    last_point_ = centre;
-    last_distance_mm_ = nearest;
+    last_triangle_ = middle.triangle;
     for (int i = 0; i < MeshField::nodes; ++i)
       for (int j = 0; j < MeshField::nodes; ++j)
         for (int k = 0; k < MeshField::nodes; ++k) {
@@ -240,13 +239,12 @@ class MeshFieldBuilder {
   }
 
   /// Exact distance in the brick at hand: from its list of candidates, or, where that is long, from the tree,
-  /// the search bounded by the last answer.
+  /// the search bounded by the triangle of the last answer.
   ExactSurface::Sample exact(const Vector3d& p) {
     if (candidates_.entries.size() <= long_list) return surface_.at(p, candidates_, hint_);
-    const double within = (std::abs(last_distance_mm_) + (p - last_point_).norm()) * (1.0 + 1e-9) + 1e-9;
-    const ExactSurface::Sample s = surface_.at(p, within);
-    last_point_ = p;
-    last_distance_mm_ = s.distance_mm;
+    const double within = std::abs(surface_.at(p, {&last_triangle_, 1}).distance_mm);
+    const ExactSurface::Sample s = surface_.at(p, within * (1.0 + 1e-9) + 1e-9);
+    last_triangle_ = s.triangle;
     return s;
   }
 
@@ -548,8 +546,7 @@ class MeshFieldBuilder {
   std::vector<TriangleBvh::Candidate> found_;
   ExactSurface::Candidates candidates_;
   std::int32_t hint_ = 0;
-  Vector3d last_point_ = Vector3d::Zero();
-  double last_distance_mm_ = 0.0;
+  std::int32_t last_triangle_ = 0;
 };
 
 MeshField MeshField::build(const RepairedMesh& repaired, const FieldParameters& parameters) {

@@ -25,6 +25,8 @@ double radius_before(const ExactSurface& surface, std::size_t t) {
   Vector3d middle = centre;
   Vector3d touched = centre;
   for (double part : {0.5, 0.375, 0.625, 0.25}) {
+    if (std::min(part, 1.0 - part) * hit.distance_mm * (1.0 + 1e-9) <= radius)
+      continue;  // both walls are nearer
     const double along = part * hit.distance_mm;
     const NearestPoint ball = surface.bvh().nearest(centre - along * normal, along * (1.0 + 1e-9), radius);
     if (ball.triangle < 0 || ball.distance_mm <= radius) continue;

@@ -132,9 +132,11 @@ ExactSurface::Sample ExactSurface::at(const Vector3d& point, const Candidates& c
   for (std::size_t i = 0; i < candidates.entries.size(); ++i) {
     const Candidates::Entry& entry = candidates.entries[i];
     if (entry.distance_mm - shift > reach) break;  // neither this nor a later triangle is nearer
-    const double ball = reach + entry.radius_mm;
-    if ((point - entry.centre_mm).squaredNorm() > ball * ball) continue;
-    if (std::abs(entry.normal.dot(point) - entry.offset_mm) > reach) continue;
+    const double height = entry.normal.dot(point) - entry.offset_mm;
+    const double aside2 = reach * reach - height * height;  // what the plane's distance leaves within it
+    if (aside2 < 0.0) continue;
+    const double ball = std::sqrt(aside2) + entry.radius_mm;
+    if ((point - entry.centre_mm).squaredNorm() - height * height > ball * ball) continue;
     if (i != first) visit(i);
   }
   best.distance_mm = std::sqrt(best2);
