@@ -1,7 +1,8 @@
-# endowire_layer(name [DEPENDS layers...]): one folder of src/endowire is one target.
+# endowire_layer(name [DEPENDS layers...]): one folder of src/endowire, with the folders in it, is one target.
 function(endowire_layer name)
   cmake_parse_arguments(arg "" "" "DEPENDS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/endowire/${name}/*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/endowire/${name}/*.cpp
+    ${PROJECT_SOURCE_DIR}/src/endowire/${name}/*/*.cpp)
   if(sources)
     add_library(endowire_${name} STATIC ${sources})
     set(scope PUBLIC)
