@@ -13,6 +13,7 @@
 
 #include "endowire/base/error.hpp"
 #include "endowire/io/scene_file.hpp"
+#include "endowire/io/scene_vessel.hpp"
 #include "endowire/io/statistics.hpp"
 #include "endowire/io/vessel_file.hpp"
 #include "endowire/sim/simulation.hpp"
@@ -58,19 +59,6 @@ fs::path default_scene() {
   const fs::path root = ENDOWIRE_SOURCE_DIR;
   const bool anatomy = fs::exists(root / "../shared/vessels/femoral_to_neuro/lumen_mm.stl");
   return root / "scenes" / (anatomy ? "femoral_entry.toml" : "generated_entry.toml");
-}
-
-io::VesselMesh vessel_of(const io::SceneFile& scene) {
-  return scene.vessel.generate.empty() ? io::read_vessel_file(scene.vessel.file, scene.vessel.unit)
-                                       : io::generate_vessel(scene.vessel.generate);
-}
-
-sim::Access access_of(const io::SceneFile& scene, const io::VesselMesh& vessel) {
-  if (!scene.opening) return scene.access;
-  for (const vessel::Opening& opening : vessel.repaired.openings)
-    if (opening.number == *scene.opening) return {opening.centre_mm, -opening.direction};
-  throw base::InputError(fmt::format("{}: access.opening is {}; must be an opening of the vessel, 1 to {}",
-                                     scene.name, *scene.opening, vessel.repaired.openings.size()));
 }
 
 struct Played {
@@ -143,11 +131,12 @@ void print_table(const io::SceneFile& scene, const io::PreparedField& prepared, 
 /// @param cache_folder  empty: the field is prepared now, and that is timed
 void bench(const fs::path& path, const fs::path& cache_folder) {
   const io::SceneFile scene = io::read_scene_file(path, {fs::path(ENDOWIRE_SOURCE_DIR) / "instruments"});
-  const io::VesselMesh vessel = vessel_of(scene);
+  const io::VesselMesh vessel = io::vessel_of(scene);
   const Clock::time_point start = Clock::now();
   const io::PreparedField prepared = io::prepare_field(vessel, cache_folder);
   const double preparation_s = seconds_since(start);
-  sim::Simulation simulation(prepared.field, scene.instrument, access_of(scene, vessel), scene.simulation);
+  sim::Simulation simulation(prepared.field, scene.instrument, io::access_of(scene, vessel),
+                             scene.simulation);
   const std::vector<io::TimedCommand> commands = io::commands_of(scene);
   print_table(scene, prepared, preparation_s, play(simulation, commands));
 }

@@ -8,6 +8,7 @@
 #include "commands.hpp"
 #include "endowire/base/error.hpp"
 #include "endowire/io/centreline_file.hpp"
+#include "endowire/io/scene_vessel.hpp"
 #include "endowire/sim/event_watch.hpp"
 #include "results.hpp"
 
@@ -22,16 +23,6 @@ constexpr std::uint64_t hash_interval = 10;  // steps between two state hashes o
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// The access through an opening: at its centre, into the vessel.
-sim::Access through_opening(const io::SceneFile& scene, const io::VesselMesh& vessel) {
-  const std::vector<vessel::Opening>& openings = vessel.repaired.openings;
-  for (const vessel::Opening& opening : openings)
-    if (opening.number == *scene.opening) return {opening.centre_mm, -opening.direction};
-  throw base::InputError(fmt::format("{}: access.opening is {}; must be {}", scene.name, *scene.opening,
-                                     openings.empty() ? "left out: the vessel has no opening"
-                                                      : fmt::format("between 1 and {}", openings.size())));
 }
 
 int report_failure(const Procedure& procedure) {
@@ -106,10 +97,8 @@ Procedure prepare(io::SceneFile scene, const std::string& cache, Progress& progr
   procedure.scene = std::move(scene);
   progress.stage("preparing the vessel …");
   const Clock::time_point start = Clock::now();
-  const io::VesselSource& source = procedure.scene.vessel;
-  procedure.vessel = source.generate.empty() ? io::read_vessel_file(source.file, source.unit)
-                                             : io::generate_vessel(source.generate);
-  if (procedure.scene.opening) procedure.scene.access = through_opening(procedure.scene, procedure.vessel);
+  procedure.vessel = io::vessel_of(procedure.scene);
+  procedure.scene.access = io::access_of(procedure.scene, procedure.vessel);
   std::future<std::shared_ptr<const vessel::CentrelineTree>> centrelines =
       std::async(std::launch::async, [&] { return io::prepare_centrelines(procedure.vessel, cache); });
   procedure.prepared = io::prepare_field(procedure.vessel, cache);

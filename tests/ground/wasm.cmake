@@ -1,4 +1,4 @@
-# cmake -DNATIVE=steps_in_torus -DBUILD=folder -P wasm.cmake: the layers below io build with Emscripten, and give the
+# cmake -DNATIVE=folder -DBUILD=folder -P wasm.cmake: the layers below io build with Emscripten, and give the
 # native answer under Node.
 cmake_minimum_required(VERSION 3.22)
 get_filename_component(root ${CMAKE_CURRENT_LIST_DIR}/../.. ABSOLUTE)
@@ -18,8 +18,11 @@ endfunction()
 run(${EMCMAKE} ${CMAKE_COMMAND} -S ${root} -B ${BUILD} -G Ninja -DCMAKE_BUILD_TYPE=Release -DENDOWIRE_WITH_IO=OFF
   -DENDOWIRE_TESTS=OFF -DEigen3_DIR=${EIGEN_CMAKE})
 run(${CMAKE_COMMAND} --build ${BUILD} --parallel ${jobs})
-execute_process(COMMAND ${NODE} ${BUILD}/tests/wasm/steps_in_torus.js OUTPUT_FILE ${BUILD}/tips.txt RESULT_VARIABLE result)
-if(result)
-  message(FATAL_ERROR "steps_in_torus.js failed under Node")
-endif()
-run(${NATIVE} ${BUILD}/tips.txt)
+foreach(program steps_in_torus generated_vessels)
+  execute_process(COMMAND ${NODE} ${BUILD}/tests/wasm/${program}.js OUTPUT_FILE ${BUILD}/${program}.txt
+    RESULT_VARIABLE result)
+  if(result)
+    message(FATAL_ERROR "${program}.js failed under Node")
+  endif()
+  run(${NATIVE}/${program} ${BUILD}/${program}.txt)
+endforeach()

@@ -65,7 +65,7 @@ SceneFile recorded_scene(const RecordingHeader& header, const fs::path& recordin
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: its scene: {}", recording, error.what()));
   }
-  if (generated != !scene.vessel.generate.empty())
+  if (generated != scene.vessel.generate.has_value())
     throw InputError(
         fmt::format("{}: vessel is {}, which is not that of its scene", recording, one_line(header.vessel)));
   return scene;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "endowire/base/error.hpp"
@@ -25,10 +26,39 @@ constexpr double max_motion_deg = 1e6;
 
 const char* const default_perforation_source =
     "estimate: the order at which a stiff tip passes an arterial wall; no measurement is cited";
-const char* const known_generators = "\"tube_tree\"";
+
+vessel::GenerateRequest read_generator(const TomlTable& table) {
+  std::string known;
+  bool found = false;
+  vessel::GenerateRequest request;
+  const std::vector<vessel::Generator> generators = vessel::generators();
+  for (const vessel::Generator& generator : generators)
+    known += (known.empty() ? "one of \"" : ", \"") + generator.name + '"';
+  request.name = table.string("generate", known);
+  for (const vessel::Generator& generator : generators) found = found || generator.name == request.name;
+  if (!found) table.refuse("generate", '"' + request.name + '"', known);
+  constexpr auto largest_seed = std::numeric_limits<std::int64_t>::max();
+  if (table.has("seed")) request.seed = static_cast<std::uint64_t>(table.integer("seed", 0, largest_seed));
+  request.open_ends = table.boolean_or("open_ends", false);
+  for (const auto& [name, number] : table.numbers("parameters")) request.settings.emplace(name, number);
+  using Kind = vessel::anatomy::LesionRequest::Kind;
+  for (const Kind kind : {Kind::stenosis, Kind::aneurysm})
+    for (const TomlTable& lesion : table.tables(kind == Kind::stenosis ? "stenosis" : "aneurysm",
+                                                {"branch", "arc_mm", "length_mm", "percent"}))
+      request.lesions.push_back(
+          {kind, lesion.string("branch", "the name of a vessel"), lesion.number("arc_mm", any_number()),
+           lesion.number("length_mm", any_number()), lesion.number("percent", any_number())});
+  const std::string vessel = table.file() + ": vessel.";
+  request.generator_field = vessel + "generate";
+  request.settings_prefix = vessel + "parameters.";
+  request.stenosis_field = vessel + "stenosis";
+  request.aneurysm_field = vessel + "aneurysm";
+  return request;
+}
 
 VesselSource read_vessel(const TomlTable& root, const fs::path& folder, const RecordedParts* recorded) {
-  const std::optional<TomlTable> table = root.table("vessel", {"file", "generate", "unit"});
+  const std::optional<TomlTable> table = root.table(
+      "vessel", {"file", "unit", "generate", "seed", "open_ends", "parameters", "stenosis", "aneurysm"});
   if (!table) root.refuse_missing("vessel", "a table with file or generate");
   VesselSource vessel;
   const std::string unit = table->string_or("unit", "mm", "\"mm\", \"cm\" or \"m\"");
@@ -38,12 +68,12 @@ VesselSource read_vessel(const TomlTable& root, const fs::path& folder, const Re
                 table->has("file") ? "given both file and generate" : "given neither file nor generate",
                 "given one of the two");
   if (table->has("generate")) {
-    vessel.generate = table->string("generate", known_generators);
-    if (vessel.generate != "tube_tree")
-      table->refuse("generate", '"' + vessel.generate + '"', known_generators);
+    vessel.generate = read_generator(*table);
     if (unit != "mm") table->refuse("unit", '"' + unit + '"', "\"mm\" for a generated vessel");
     return vessel;
   }
+  for (const char* key : {"seed", "open_ends", "parameters", "stenosis", "aneurysm"})
+    if (table->has(key)) table->refuse(key, "given with a file", "left out: it belongs to generate");
   const std::string text = table->string("file", "the path of a mesh");
   if (recorded != nullptr) {
     vessel.file = recorded->vessel_file;
@@ -59,6 +89,8 @@ VesselSource read_vessel(const TomlTable& root, const fs::path& folder, const Re
 
 void read_access(const TomlTable& root, SceneFile& scene) {
   const std::optional<TomlTable> table = root.table("access", {"position_mm", "direction", "opening"});
+  scene.access_given = table.has_value();
+  if (!table && scene.vessel.generate) return;
   if (!table) root.refuse_missing("access", "a table with position_mm and direction, or opening");
   if (table->has("opening")) {
     if (table->has("position_mm") || table->has("direction"))
@@ -262,9 +294,9 @@ SceneFile read_scene(const std::string& text, const std::string& name,
   scene.name = name;
   scene.text = text;
   scene.title = root.string_or("title", fs::path(name).stem().string(), "a text");
-  read_access(root, scene);
   read_simulation(root, scene);
   scene.vessel = read_vessel(root, folder, recorded);
+  read_access(root, scene);
   if (recorded == nullptr) {
     scene.instrument = read_instrument(root, folder, instrument_folders);
   } else {

@@ -9,15 +9,16 @@
 #include "endowire/rod/instrument.hpp"
 #include "endowire/sim/scene.hpp"
 #include "endowire/sim/target.hpp"
+#include "endowire/vessel/generate.hpp"
 #include "endowire/vessel/stl.hpp"
 
 namespace endowire::io {
 
-/// Where the vessel comes from: a file, or an anatomy built in code.
+/// Where the vessel comes from: a file, or an anatomy made in code.
 struct VesselSource {
   std::filesystem::path file;  ///< as it can be opened from here; empty when generated
-  std::string generate;        ///< name of the generator; empty when read from a file
   vessel::LengthUnit unit = vessel::LengthUnit::millimetre;  ///< unit of the file
+  std::optional<vessel::GenerateRequest> generate;           ///< what to make; none when read from a file
 };
 
 /// A procedure as written down in a scene file; units as in sim/scene.hpp.
@@ -26,8 +27,9 @@ struct SceneFile {
   std::string text;   ///< the file, as read
   std::string title;  ///< for people; the file's name where the scene gives none
   VesselSource vessel;
-  std::optional<int> opening;  ///< access through an opening, counted from 1; else `access` holds
-  sim::Access access;
+  std::optional<int> opening;  ///< access through an opening, counted from 1
+  bool access_given = true;    ///< else a generated vessel's own, which only making it tells
+  sim::Access access;          ///< where given and not through an opening
   rod::Instrument instrument;
   sim::SimulationSpec simulation;
   std::optional<double> step_s;  ///< a fixed rate instead of the longest step

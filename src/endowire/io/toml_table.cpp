@@ -126,6 +126,28 @@ std::string TomlTable::string_or(std::string_view key, std::string otherwise, st
   return has(key) ? string(key, what) : std::move(otherwise);
 }
 
+bool TomlTable::boolean_or(std::string_view key, bool otherwise) const {
+  const toml::node* node = table_->get(key);
+  if (node == nullptr) return otherwise;
+  if (!node->is_boolean()) refuse(key, type_name(*node), "true or false");
+  return node->value<bool>().value_or(otherwise);
+}
+
+std::vector<std::pair<std::string, double>> TomlTable::numbers(std::string_view key) const {
+  std::vector<std::pair<std::string, double>> result;
+  const toml::node* node = table_->get(key);
+  if (node == nullptr) return result;
+  if (!node->is_table()) refuse(key, type_name(*node), "a table");
+  for (const auto& [name, element] : *node->as_table()) {
+    const std::string element_key = fmt::format("{}.{}", key, name.str());
+    if (!element.is_number() && !element.is_boolean()) refuse(element_key, type_name(element), "a number");
+    const double number = element.is_boolean() ? (element.value<bool>().value_or(false) ? 1.0 : 0.0)
+                                               : element.value<double>().value_or(std::nan(""));
+    result.emplace_back(one_line(name.str()), number);
+  }
+  return result;
+}
+
 Eigen::Vector3d TomlTable::vector(std::string_view key) const {
   const char* const allowed = "a list of three finite numbers";
   const toml::node* node = table_->get(key);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace endowire::io {
@@ -72,6 +73,10 @@ class TomlTable {
   [[nodiscard]] std::string string(std::string_view key, std::string_view what) const;
   [[nodiscard]] std::string string_or(std::string_view key, std::string otherwise,
                                       std::string_view what) const;
+  [[nodiscard]] bool boolean_or(std::string_view key, bool otherwise) const;
+  /// The entries of the table under `key`, which may have any names: numbers, or true and false for 1 and 0. None
+  /// when it is absent.
+  [[nodiscard]] std::vector<std::pair<std::string, double>> numbers(std::string_view key) const;
   [[nodiscard]] Eigen::Vector3d vector(std::string_view key) const;
   [[nodiscard]] Eigen::Vector3d vector_or(std::string_view key, const Eigen::Vector3d& otherwise) const;
   /// The table under `key`, if there is one.

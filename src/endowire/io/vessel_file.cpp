@@ -6,7 +6,6 @@
 
 #include "endowire/base/error.hpp"
 #include "endowire/io/file.hpp"
-#include "endowire/vessel/generate.hpp"
 #include "endowire/vessel/stl.hpp"
 
 namespace endowire::io {
@@ -33,14 +32,14 @@ VesselMesh read_vessel_file(const fs::path& path, vessel::LengthUnit unit) {
   return mesh;
 }
 
-VesselMesh generate_vessel(const std::string& name) {
-  if (name != "tube_tree")
-    throw base::InputError("vessel.generate is \"" + one_line(name) + "\"; must be \"tube_tree\"");
+VesselMesh generate_vessel(const vessel::GenerateRequest& request) {
+  const vessel::GeneratedVessel made = vessel::generate(request);
   VesselMesh mesh;
-  mesh.source = "generate:" + name;
-  const vessel::TriangleMesh triangles = vessel::tube_tree().mesh;
-  mesh.content_hash = vessel::content_hash(triangles);
-  mesh.repaired = vessel::repair(triangles, mesh.source);
+  mesh.source = "generate:" + request.name;
+  if (request.seed) mesh.source += " seed " + std::to_string(*request.seed);
+  mesh.content_hash = vessel::content_hash(made.mesh);
+  mesh.repaired = vessel::repair(made.mesh, mesh.source);
+  mesh.access = sim::Access{made.access_position_mm, made.access_direction};
   return mesh;
 }
 

@@ -3,8 +3,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "endowire/sim/scene.hpp"
+#include "endowire/vessel/generate.hpp"
 #include "endowire/vessel/mesh_field.hpp"
 #include "endowire/vessel/repair.hpp"
 
@@ -12,10 +15,11 @@ namespace endowire::io {
 
 /// A vessel as read and understood, not yet prepared.
 struct VesselMesh {
-  std::string source;              ///< path as given, or `generate:name`
+  std::string source;              ///< path as given, or `generate:name`, `generate:name seed 7`
   std::uint64_t content_hash = 0;  ///< of the file's bytes; of the triangles when generated
   vessel::LengthUnit unit = vessel::LengthUnit::millimetre;
   vessel::RepairedMesh repaired;
+  std::optional<sim::Access> access;  ///< of a generated vessel: where a wire enters
 };
 
 inline constexpr std::uintmax_t max_mesh_bytes = std::uintmax_t{2} << 30;  // 43 million triangles
@@ -24,9 +28,9 @@ inline constexpr std::uintmax_t max_mesh_bytes = std::uintmax_t{2} << 30;  // 43
 /// @throws base::InputError one line that names the file and what is wrong with it.
 [[nodiscard]] VesselMesh read_vessel_file(const std::filesystem::path& path, vessel::LengthUnit unit);
 
-/// A vessel built in code: `tube_tree`.
-/// @throws base::InputError for any other name.
-[[nodiscard]] VesselMesh generate_vessel(const std::string& name);
+/// A vessel made in code.
+/// @throws base::InputError one line that names the field, its value and what is allowed
+[[nodiscard]] VesselMesh generate_vessel(const vessel::GenerateRequest& request);
 
 /// Where a prepared field came from.
 enum class FieldOrigin {

@@ -17,7 +17,7 @@ const std::vector<std::filesystem::path> library{ENDOWIRE_SOURCE_DIR "/instrumen
 
 const std::string good = R"(schema = 1
 [vessel]
-generate = "tube_tree"
+generate = "aortic_arch"
 [access]
 position_mm = [1.0, 2.0, 3.0]
 direction = [0.0, 0.0, 2.0]
@@ -43,13 +43,50 @@ std::string replaced(const std::string& from, const std::string& to) {
 
 TEST(SceneFile, ReadsEveryPart) {
   const SceneFile scene = parse_scene(good, "s.toml", library);
-  EXPECT_EQ(scene.vessel.generate, "tube_tree");
+  ASSERT_TRUE(scene.vessel.generate);
+  EXPECT_EQ(scene.vessel.generate->name, "aortic_arch");
+  EXPECT_FALSE(scene.vessel.generate->seed);
+  EXPECT_TRUE(scene.access_given);
   EXPECT_EQ(scene.access.position_mm, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(scene.access.direction, Eigen::Vector3d(0, 0, 1));
   EXPECT_EQ(scene.instrument.model, "hydrophilic_035_straight");
   EXPECT_EQ(scene.simulation.max_advance_mm, 2.0);
   ASSERT_EQ(scene.motions.size(), 2U);
   EXPECT_EQ(scene.motions[1].hands[0].torque_deg, 90.0);
+}
+
+TEST(SceneFile, AGeneratedVesselIsDescribedAndBringsItsOwnAccess) {
+  std::string text = replaced("generate = \"aortic_arch\"", R"(generate = "aortic_arch"
+seed = 7
+open_ends = true
+[vessel.parameters]
+arch_type = 2
+bovine = true
+[[vessel.stenosis]]
+branch = "left carotid artery"
+arc_mm = 80
+length_mm = 20
+percent = 60
+[[vessel.aneurysm]]
+branch = "aorta to right iliac artery"
+arc_mm = 380
+length_mm = 70
+percent = 80)");
+  const std::size_t access = text.find("[access]");
+  text.erase(access, text.find("[[instrument]]") - access);
+  const SceneFile scene = parse_scene(text, "s.toml", library);
+  EXPECT_FALSE(scene.access_given);
+  ASSERT_TRUE(scene.vessel.generate);
+  const vessel::GenerateRequest& request = *scene.vessel.generate;
+  EXPECT_EQ(request.seed, 7U);
+  EXPECT_TRUE(request.open_ends);
+  EXPECT_EQ(request.settings.at("arch_type"), 2.0);
+  EXPECT_EQ(request.settings.at("bovine"), 1.0);
+  ASSERT_EQ(request.lesions.size(), 2U);
+  EXPECT_EQ(request.lesions[0].percent, 60.0);
+  EXPECT_EQ(request.lesions[1].kind, vessel::anatomy::LesionRequest::Kind::aneurysm);
+  EXPECT_EQ(request.settings_prefix, "s.toml: vessel.parameters.");
+  EXPECT_EQ(request.aneurysm_field, "s.toml: vessel.aneurysm");
 }
 
 TEST(SceneFile, MotionsBecomeEqualStepsThatAddUp) {
@@ -89,7 +126,7 @@ TEST(SceneFile, VesselAndInstrumentPathsAreRelativeToTheScene) {
   std::filesystem::create_directories(folder / "vessels");
   test::write_text(folder / "vessels/v.stl", "x");
   std::filesystem::copy_file(library[0] / "hydrophilic_035_angled.toml", folder / "own.toml");
-  std::string text = replaced("generate = \"tube_tree\"", "file = \"vessels/v.stl\"\nunit = \"cm\"");
+  std::string text = replaced("generate = \"aortic_arch\"", "file = \"vessels/v.stl\"\nunit = \"cm\"");
   text.replace(text.find("hydrophilic_035_straight"), 24, "own.toml");
   test::write_text(folder / "s.toml", text);
   const SceneFile scene = read_scene_file(folder / "s.toml", {});
@@ -133,7 +170,7 @@ TEST(SceneFile, ThePerforationThresholdSaysWhereItComesFrom) {
 
 // A recording is read where neither its vessel nor its instrument can be found.
 TEST(SceneFile, PartsOfARecordingStandInForFiles) {
-  std::string text = replaced("generate = \"tube_tree\"", "file = \"gone.stl\"");
+  std::string text = replaced("generate = \"aortic_arch\"", "file = \"gone.stl\"");
   text.replace(text.find("hydrophilic_035_straight"), 24, "gone");
   RecordedParts parts{"moved.stl", parse_scene(good, "s.toml", library).instrument};
   const SceneFile scene = parse_scene(text, "s.toml", parts);
@@ -179,17 +216,37 @@ INSTANTIATE_TEST_SUITE_P(
                  "solver, "
                  "instrument, simulation, motion, target"},
         BadScene{"generate = ", "genrate = ",
-                 "s.toml: vessel.genrate is unknown; known here: file, generate, unit"},
-        BadScene{"\"tube_tree\"", "\"tube\"", "s.toml: vessel.generate is \"tube\"; must be \"tube_tree\""},
-        BadScene{"\"tube_tree\"", "7", "s.toml: vessel.generate is a number; must be \"tube_tree\""},
-        BadScene{"\"tube_tree\"", "\"tube_tree\"\nunit = \"inch\"",
+                 "s.toml: vessel.genrate is unknown; known here: file, unit, generate, seed, open_ends, "
+                 "parameters, stenosis, aneurysm"},
+        BadScene{"\"aortic_arch\"", "\"tube\"",
+                 "s.toml: vessel.generate is \"tube\"; must be one of \"aortic_arch\", \"iliofemoral\", "
+                 "\"renal\", \"coronary\", \"carotid_siphon\""},
+        BadScene{"\"aortic_arch\"", "7",
+                 "s.toml: vessel.generate is a number; must be one of \"aortic_arch\", \"iliofemoral\", "
+                 "\"renal\", \"coronary\", \"carotid_siphon\""},
+        BadScene{"\"aortic_arch\"", "\"aortic_arch\"\nunit = \"inch\"",
                  "s.toml: vessel.unit is \"inch\"; must be \"mm\", \"cm\" or \"m\""},
-        BadScene{"generate = \"tube_tree\"", "",
+        BadScene{"generate = \"aortic_arch\"", "",
                  "s.toml: vessel is given neither file nor generate; must be given one of the two"},
-        BadScene{"generate = \"tube_tree\"", "generate = \"tube_tree\"\nfile = \"v.stl\"",
+        BadScene{"generate = \"aortic_arch\"", "generate = \"aortic_arch\"\nfile = \"v.stl\"",
                  "s.toml: vessel is given both file and generate; must be given one of the two"},
-        BadScene{"generate = \"tube_tree\"", "file = \"none.stl\"",
+        BadScene{"generate = \"aortic_arch\"", "file = \"none.stl\"",
                  "s.toml: vessel.file is \"none.stl\"; must be an existing file (none.stl is none)"},
+        BadScene{"generate = \"aortic_arch\"", "generate = \"aortic_arch\"\nseed = -1",
+                 "s.toml: vessel.seed is -1; must be an integer between 0 and 9223372036854775807"},
+        BadScene{"generate = \"aortic_arch\"", "generate = \"aortic_arch\"\nopen_ends = 1",
+                 "s.toml: vessel.open_ends is a number; must be true or false"},
+        BadScene{"generate = \"aortic_arch\"",
+                 "generate = \"aortic_arch\"\nparameters = { arch_type = \"II\" }",
+                 "s.toml: vessel.parameters.arch_type is a text; must be a number"},
+        BadScene{"generate = \"aortic_arch\"", "generate = \"aortic_arch\"\nparameters = 3",
+                 "s.toml: vessel.parameters is a number; must be a table"},
+        BadScene{
+            "generate = \"aortic_arch\"",
+            "generate = \"aortic_arch\"\nstenosis = [{ branch = \"left carotid artery\", length_mm = 20 }]",
+            "s.toml: vessel.stenosis[0].arc_mm is missing; must be a finite number"},
+        BadScene{"generate = \"aortic_arch\"", "file = \"v.stl\"\nseed = 3",
+                 "s.toml: vessel.seed is given with a file; must be left out: it belongs to generate"},
         BadScene{"position_mm = [1.0, 2.0, 3.0]", "position_mm = [1.0, 2.0]",
                  "s.toml: access.position_mm is a list of 2; must be a list of three finite numbers"},
         BadScene{"position_mm = [1.0, 2.0, 3.0]", "position_mm = [1.0, nan, 3.0]",

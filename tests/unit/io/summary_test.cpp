@@ -86,7 +86,7 @@ class Summary : public ::testing::Test {
       soup.vertices_mm.emplace_back(20.0 * (i & 1), 20.0 * (i >> 1 & 1), 20.0 * (i >> 2));
     soup.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                       {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-    return {"cube.stl", 0xabcULL, vessel::LengthUnit::millimetre, vessel::repair(soup, "cube.stl")};
+    return {"cube.stl", 0xabcULL, vessel::LengthUnit::millimetre, vessel::repair(soup, "cube.stl"), {}};
   }
 
   nlohmann::json written(const CrossingVerdict& verdict, const MachineFacts& machine) const {

@@ -7,7 +7,6 @@
 
 #include "endowire/base/error.hpp"
 #include "endowire/vessel/analytic_field.hpp"
-#include "endowire/vessel/generate.hpp"
 #include "endowire/vessel/inspect.hpp"
 #include "endowire/vessel/random.hpp"
 #include "endowire/vessel/surface.hpp"
@@ -249,17 +248,6 @@ TEST(Inspect, SaysWhatWasFoundAndDone) {
   EXPECT_NEAR(report.field.lumen_diameter_percentiles_mm[2], 6.0, 0.1);
   EXPECT_EQ(report.mesh.triangles, 32U * 30U * 2U);
   EXPECT_GT(report.field.bricks, 0U);
-}
-
-TEST(MeshField, GeneratedTreeIsEnteredAtItsAccess) {
-  const GeneratedVessel tree = tube_tree();
-  const MeshField field = MeshField::build(repair(tree.mesh, "tree"));
-  EXPECT_GT(field.at(tree.access_position_mm).distance_mm, 3.0);
-  EXPECT_GT(field.at(tree.access_position_mm + 20.0 * tree.access_direction).distance_mm, 0.0);
-  EXPECT_LT(field.error_mm(), 0.1);
-  for (const Landmark& mark : tree.landmarks) {
-    EXPECT_GT(field.at(mark.position_mm).distance_mm, 0.5 * mark.lumen_radius_mm) << mark.name;
-  }
 }
 
 }  // namespace

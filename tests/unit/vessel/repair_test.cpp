@@ -6,7 +6,6 @@
 
 #include "endowire/base/error.hpp"
 #include "endowire/vessel/closure.hpp"
-#include "endowire/vessel/generate.hpp"
 #include "support/generated_meshes.hpp"
 
 namespace endowire::vessel {
@@ -124,19 +123,6 @@ TEST(Repair, RefusesAbsurdSizesAndNamesTheUnit) {
       "vessel.mm.stl: extent is 0.591 mm; must be 5 … 3e+03 mm; was it saved in metres? then unit = \"m\"");
   EXPECT_NE(said(1e5, LengthUnit::metre).find("then unit = \"mm\""), std::string::npos);
   EXPECT_EQ(said(10.0, LengthUnit::millimetre), "accepted");
-}
-
-TEST(Generate, TubeTreeIsWatertightAndLongEnough) {
-  const GeneratedVessel vessel = tube_tree();
-  expect_watertight(vessel.mesh);
-  const RepairedMesh repaired = repair(vessel.mesh, "tree");
-  EXPECT_EQ(repaired.report.components, 1U);
-  EXPECT_EQ(repaired.report.triangles, vessel.mesh.triangles.size());
-  EXPECT_TRUE(repaired.openings.empty());
-  EXPECT_GT(signed_volume_mm3(vessel.mesh), 0.0);
-  EXPECT_GT(vessel.route_mm, 440.0);
-  EXPECT_LT(vessel.route_mm, 520.0);
-  EXPECT_EQ(content_hash(vessel.mesh), content_hash(tube_tree().mesh));
 }
 
 }  // namespace
