@@ -15,6 +15,7 @@ inline constexpr int exit_not_reproduced =
     4;  ///< a replay gave other states; written, one line on stderr says where
 
 /// Each adds its subcommand and returns what runs it, once the command line is parsed.
+[[nodiscard]] std::function<int()> add_generate(CLI::App& app);
 [[nodiscard]] std::function<int()> add_inspect(CLI::App& app);
 [[nodiscard]] std::function<int()> add_instruments(CLI::App& app);
 [[nodiscard]] std::function<int()> add_simulate(CLI::App& app);

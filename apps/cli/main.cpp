@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", std::string("endowire ") + io::version);
   app.require_subcommand(1);
   std::vector<std::pair<const char*, std::function<int()>>> commands;
+  commands.emplace_back("generate", cli::add_generate(app));
   commands.emplace_back("inspect", cli::add_inspect(app));
   commands.emplace_back("instruments", cli::add_instruments(app));
   commands.emplace_back("simulate", cli::add_simulate(app));
@@ -32,7 +33,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::RequiredError& error) {
     if (argc > 1 && app.get_subcommands().empty())
       return complain(std::string("endowire: \"") + argv[1] +
-                      "\" is no subcommand; must be inspect, instruments, simulate or replay");
+                      "\" is no subcommand; must be generate, inspect, instruments, simulate or replay");
     return complain(std::string("endowire: ") + error.what());
   } catch (const CLI::ParseError& error) {
     return complain(std::string("endowire: ") + error.what());
