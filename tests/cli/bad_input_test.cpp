@@ -141,8 +141,9 @@ TEST(BadCommandLine, IsOneLineToo) {
   test::write_text(folder / "s.toml", test::tube_scene);
   test::write_text(folder / "v.stl", test::tube_stl(4.0, 60.0));
   expect_bad_input(run_endowire(folder, {}), "endowire: A subcommand is required");
-  expect_bad_input(run_endowire(folder, {"dance"}),
-                   "endowire: \"dance\" is no subcommand; must be generate, inspect, instruments, simulate or replay");
+  expect_bad_input(
+      run_endowire(folder, {"dance"}),
+      "endowire: \"dance\" is no subcommand; must be generate, inspect, instruments, simulate or replay");
   expect_bad_input(run_endowire(folder, {"simulate"}), "SCENE is required");
   expect_bad_input(run_endowire(folder, {"simulate", "s.toml"}), "--out is required");
   expect_bad_input(run_endowire(folder, {"simulate", "s.toml", "--out", "out", "--speed"}), "--speed");

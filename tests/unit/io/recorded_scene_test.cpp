@@ -45,10 +45,10 @@ TEST(RecordedScene, AGeneratedVesselIsCheckedOnceItIsMade) {
   const RecordingHeader header = header_for("generate = \"aortic_arch\"", "generate:aortic_arch", 7);
   EXPECT_TRUE(recorded_scene(header, "r.jsonl").vessel.file.empty());
   check_recorded_vessel(header, "r.jsonl", 7);
-  EXPECT_EQ(
-      message_of<base::InputError>([&] { check_recorded_vessel(header, "r.jsonl", 8); }),
-      "r.jsonl: vessel generate:aortic_arch has content 0000000000000008; must be 0000000000000007, as it was "
-      "recorded");
+  EXPECT_EQ(message_of<base::InputError>([&] { check_recorded_vessel(header, "r.jsonl", 8); }),
+            "r.jsonl: vessel generate:aortic_arch has content 0000000000000008; must be 0000000000000007, as "
+            "it was "
+            "recorded");
 }
 
 }  // namespace
