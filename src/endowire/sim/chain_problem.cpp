@@ -80,6 +80,7 @@ double ChainProblem::potential(const rod::ChainShape& at_shape) {
 }
 
 double ChainProblem::energy_mj() {
+  if (feed.active) fit_entering(feed.inserted_mm);
   return potential(shape) + (feed.active ? grip_energy_mj(feed) : 0.0);
 }
 
@@ -114,6 +115,7 @@ double ChainProblem::add_loads(math::BandMatrix& hessian, std::vector<double>& g
 }
 
 double ChainProblem::linearise(math::BandMatrix& hessian, std::vector<double>& gradient) {
+  if (feed.active) fit_entering(feed.inserted_mm);  // a trial that was not taken may have left its own length
   double energy = rod::add_joint_derivatives(material, shape, hessian, gradient);
   if (loads.tip_moment_n_mm != 0.0) {
     moment_turn_ = turn_about(loads.tip_moment_axis, shape.frames[0].col(2), moment_turn_);

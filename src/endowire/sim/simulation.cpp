@@ -5,12 +5,11 @@
 #include <sstream>
 
 #include "endowire/base/error.hpp"
-#include "endowire/math/transport.hpp"
-#include "endowire/rod/remesh.hpp"
 #include "endowire/sim/chain_problem.hpp"
 #include "endowire/sim/grid.hpp"
 #include "endowire/sim/measure.hpp"
 #include "endowire/sim/predictor.hpp"
+#include "endowire/sim/sheath.hpp"
 #include "endowire/sim/waypoints.hpp"
 
 namespace endowire::sim {
@@ -21,10 +20,6 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-/// A joint enters when it is this far beyond the sheath, and leaves when it would be nearer than half of that: the entering rod never
-/// gets so short that its stiffness spoils the matrix.
-constexpr double kEntry_mm = 1.0;
-constexpr double kLeave_mm = 0.5;
 /// Largest turn of the unloaded wire at one joint: pre-curved tips get shorter rods.
 constexpr double kMaxBias_rad = 0.15;
 /// A joint has snapped that is so far, after one sub-step, both off the trace of the wire before it and from where its motion of
@@ -65,7 +60,6 @@ class Simulation::Impl {
 
   const StepReport& step(const Command& command);
   void restore(const State& state);
-  void check_state(const State& state) const;
   void save(State& out) const;
   void snapshot(Snapshot& out) const;
   void waypoint(int index, Snapshot& out) const;
@@ -82,9 +76,6 @@ class Simulation::Impl {
   void redetect();
   void keep_waypoint();
   [[nodiscard]] bool lies_clear() const;
-  void enter(double inserted_mm, double turn_rad);
-  void adapt_sheath(double inserted_mm);
-  void prepare_material(int first);
   void finish(const Command& command);
   void measure();
   [[nodiscard]] contact::Wire wire() const { return {line_, problem_.material, problem_.shape}; }
@@ -96,10 +87,9 @@ class Simulation::Impl {
   SimulationSpec spec_;
   contact::ContactSpec contact_spec_;
   solve::NewtonSpec newton_spec_;
-  std::vector<double> grid_;
-  double gravity_m_per_s2_ = 0.0;
 
   ChainProblem problem_;
+  Sheath sheath_;
   solve::Newton newton_;
   contact::FrictionMemory friction_;
   double hand_turn_rad_ = 0.0;
@@ -152,12 +142,13 @@ Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrume
   problem_.checker = [this] { return check_walls(); };
   problem_.on_step = [this] { keep_waypoint(); };
 
-  grid_ = uniform_grid(line_, solver.rod_length_mm, kMaxBias_rad);
-  gravity_m_per_s2_ = spec_.gravity_m_per_s2.norm();
+  const double gravity_m_per_s2 = spec_.gravity_m_per_s2.norm();
+  sheath_ = Sheath(line_, access_, uniform_grid(line_, solver.rod_length_mm, kMaxBias_rad), gravity_m_per_s2,
+                   spec_.blood_density_g_per_mm3);
   problem_.line = &line_;
   problem_.region_mm = kRegion_mm;
-  if (gravity_m_per_s2_ > kStandardGravity_floor) {
-    problem_.loads.gravity_direction = spec_.gravity_m_per_s2 / gravity_m_per_s2_;
+  if (gravity_m_per_s2 > kStandardGravity_floor) {
+    problem_.loads.gravity_direction = spec_.gravity_m_per_s2 / gravity_m_per_s2;
   }
   Feed& feed = problem_.feed;
   feed.active = true;
@@ -167,8 +158,8 @@ Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrume
   // The same stiffness at a lever of one millimetre.
   feed.torque = {solver.grip_stiffness_n_per_mm, line_.instrument().grip_torque_n_mm};
 
-  const auto joints = static_cast<int>(grid_.size()) + 1;
-  const std::size_t samples = 20 * grid_.size();
+  const int joints = sheath_.most_rods() + 1;
+  const std::size_t samples = 20 * at(sheath_.most_rods());
   problem_.reserve(joints, samples);
   newton_.reserve(4 * (joints + 1));
   friction_.reserve(samples);
@@ -208,42 +199,8 @@ void Simulation::Impl::save(State& out) const {
   out.friction.normal_n_per_mm.assign(friction_.normal_n_per_mm.begin(), friction_.normal_n_per_mm.end());
 }
 
-namespace {
-
-bool ascending(const std::vector<double>& arcs) {
-  return std::adjacent_find(arcs.begin(), arcs.end(), [](double a, double b) { return !(a <= b); }) ==
-         arcs.end();
-}
-
-}  // namespace
-
-/// Throws InputError unless lists belong together and to this instrument.
-void Simulation::Impl::check_state(const State& state) const {
-  const std::size_t rods = state.directors.size();
-  const bool chain = rods == 0 ? state.joints_mm.empty() && state.arc_mm.empty()
-                               : rods >= 2 && rods <= grid_.size() && state.joints_mm.size() == rods + 1 &&
-                                     state.arc_mm.size() == rods - 1 && state.arc_mm[0] == 0.0 &&
-                                     state.spin_rad.size() == rods && state.twist_rad.size() == rods + 1;
-  if (!chain || !ascending(state.arc_mm)) {
-    refuse(
-        "state: sizes of joints, arcs, directors, spin and twist do not belong together or to this "
-        "instrument, or arcs do not ascend");
-  }
-  const contact::FrictionMemory& friction = state.friction;
-  if (friction.traction_n_per_mm.size() != friction.arc_mm.size() ||
-      friction.normal_n_per_mm.size() != friction.arc_mm.size() ||
-      friction.arc_mm.size() > friction_.arc_mm.capacity() || !ascending(friction.arc_mm)) {
-    refuse(
-        "state.friction: its lists must be equally long, not too long for this instrument, and arcs ascend");
-  }
-  if (state.drift.joints_mm.size() != state.drift.arc_mm.size() || state.drift.arc_mm.size() > grid_.size() ||
-      !ascending(state.drift.arc_mm)) {
-    refuse("state.drift: its lists must be equally long, not too long for this instrument, and arcs ascend");
-  }
-}
-
 void Simulation::Impl::restore(const State& state) {
-  check_state(state);
+  require_sound(state, sheath_.most_rods(), friction_.arc_mm.capacity());
   const std::size_t rods = state.directors.size();
   if (&state != &state_) state_ = state;
   rod::ChainShape& shape = problem_.shape;
@@ -252,10 +209,7 @@ void Simulation::Impl::restore(const State& state) {
   problem_.feed.stretch_mm = state.grip_stretch_mm;
   problem_.feed.twist_rad = state.grip_twist_rad;
   if (rods == 0) {
-    shape.joints_mm.clear();
-    shape.frames.clear();
-    shape.spin_rad.clear();
-    shape.twist_rad.clear();
+    Sheath::leave(problem_);
   } else {
     shape.resize(static_cast<int>(rods));
     shape.joints_mm.assign(state.joints_mm.begin(), state.joints_mm.end());
@@ -269,7 +223,7 @@ void Simulation::Impl::restore(const State& state) {
     }
     problem_.material.resize(static_cast<int>(rods));
     std::copy(state.arc_mm.begin(), state.arc_mm.end(), problem_.material.arc_mm.begin());
-    prepare_material(0);
+    sheath_.fill(0, problem_);
   }
   drift_.advance_mm = state.drift.advance_mm;
   drift_.slip_mm = state.drift.slip_mm;
@@ -281,56 +235,6 @@ void Simulation::Impl::restore(const State& state) {
   friction_.normal_n_per_mm.assign(state.friction.normal_n_per_mm.begin(),
                                    state.friction.normal_n_per_mm.end());
   problem_.contact.clear();
-}
-
-/// Material of the joints from `first` on, and of the entering rod with the wire inserted so far.
-void Simulation::Impl::prepare_material(int first) {
-  rod::ChainMaterial& material = problem_.material;
-  const double inserted = problem_.feed.inserted_mm;
-  material.arc_mm[at(material.rods() - 1)] = inserted;
-  material.arc_mm[at(material.rods())] = inserted + kSheathRod_mm;
-  rod::fill_material_from(line_, first, gravity_m_per_s2_, spec_.blood_density_g_per_mm3, material);
-  problem_.fit_entering(inserted);
-}
-
-/// The tip comes out of the sheath, straight.
-void Simulation::Impl::enter(double inserted_mm, double turn_rad) {
-  rod::ChainShape& shape = problem_.shape;
-  shape.resize(2);
-  shape.joints_mm[0] = access_.position_mm + inserted_mm * access_.direction;
-  shape.joints_mm[1] = access_.position_mm;
-  shape.joints_mm[2] = access_.position_mm - kSheathRod_mm * access_.direction;
-  const Eigen::Vector3d m1 =
-      math::spin_about(math::any_normal(access_.direction), access_.direction, turn_rad);
-  for (int i = 0; i < 2; ++i) {
-    shape.frames[at(i)].col(0) = m1;
-    shape.frames[at(i)].col(1) = access_.direction.cross(m1);
-    shape.frames[at(i)].col(2) = access_.direction;
-    shape.spin_rad[at(i)] = turn_rad;
-  }
-  std::fill(shape.twist_rad.begin(), shape.twist_rad.end(), 0.0);
-  problem_.feed.inserted_mm = inserted_mm;
-  problem_.material.resize(2);
-  problem_.material.arc_mm[0] = 0.0;
-  prepare_material(0);
-}
-
-/// Joints enter or leave so that the entering rod keeps a sound length before and after the coming motion.
-void Simulation::Impl::adapt_sheath(double inserted_mm) {
-  rod::ChainShape& shape = problem_.shape;
-  rod::ChainMaterial& material = problem_.material;
-  const double least = std::min(inserted_mm, problem_.feed.inserted_mm);
-  int first = shape.rods();
-  const auto last_free = [&] { return shape.rods() - 2; };
-  while (shape.rods() > 2 && least - material.arc_mm[at(last_free())] < kLeave_mm) {
-    rod::join_rods(material, shape, last_free());
-    first = std::min(first, last_free());
-  }
-  while (shape.rods() < static_cast<int>(grid_.size()) && least - grid_[at(shape.rods() - 1)] >= kEntry_mm) {
-    first = std::min(first, last_free());
-    rod::divide_rod(material, shape, last_free(), grid_[at(shape.rods() - 1)]);
-  }
-  if (first < shape.rods()) prepare_material(std::max(0, first - 1));
 }
 
 const StepReport& Simulation::Impl::step(const Command& command) {
@@ -393,22 +297,17 @@ bool Simulation::Impl::advance_once(const Command& command) {
   const double advance_mm = hand_mm_ - slip;
   const double inserted = feed.inserted_mm + advance_mm;
   if (in_sheath()) {
-    if (inserted < kEntry_mm) {
+    if (inserted < Sheath::kEntry_mm) {
       feed.inserted_mm = inserted;
       return true;
     }
-    enter(inserted, hand_turn_rad_ + command.torque_rad);
-    problem_.contact.clear();
+    sheath_.enter(inserted, hand_turn_rad_ + command.torque_rad, problem_);
     problem_.contact.place(wire(), problem_.shape.rods() - 1, *field_, contact_spec_, friction_);
     traced_.assign(problem_.shape.joints_mm.begin(), problem_.shape.joints_mm.end());
     traced_inserted_mm_ = inserted;
   } else {
-    if (inserted < kLeave_mm) {  // back into the sheath
-      problem_.shape.joints_mm.clear();
-      problem_.shape.frames.clear();
-      problem_.shape.spin_rad.clear();
-      problem_.shape.twist_rad.clear();
-      problem_.contact.clear();
+    if (inserted < Sheath::kLeave_mm) {  // back into the sheath
+      Sheath::leave(problem_);
       friction_.clear();
       drift_.advance_mm = drift_.slip_mm = 0.0;
       drift_.arc_mm.clear();
@@ -417,14 +316,14 @@ bool Simulation::Impl::advance_once(const Command& command) {
       feed.stretch_mm = feed.twist_rad = 0.0;
       return true;
     }
-    adapt_sheath(inserted);
+    sheath_.adapt(inserted, problem_);
     problem_.contact.place(wire(), problem_.shape.rods() - 1, *field_, contact_spec_, friction_);
     follow_trace(problem_.material, {advance_mm, command.torque_rad}, problem_.shape, trace_);
     traced_.assign(problem_.shape.joints_mm.begin(), problem_.shape.joints_mm.end());
     follow_drift(drift_, problem_.material, hand_mm_, problem_.shape, trace_);
     feed.inserted_mm = traced_inserted_mm_ = inserted;
     feed.stretch_mm += slip;
-    prepare_material(problem_.shape.rods() - 2);
+    sheath_.fill(problem_.shape.rods() - 2, problem_);
   }
   const int n = problem_.shape.rods();
   problem_.release_all();
@@ -456,6 +355,7 @@ solve::Validity Simulation::Impl::check_walls() {
   if (wrong == 0) {
     if (problem_.inside_region()) {
       corrections_ += walls.corrected ? 1 : 0;
+      report_.walls_at_rest = corrections_ < kMaxCorrections;
       return walls.corrected ? solve::Validity::corrected : solve::Validity::holds;
     }
     // A state on its way that no wall contradicts goes on from where it is.

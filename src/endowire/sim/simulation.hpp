@@ -21,7 +21,10 @@ struct StepReport {
   double detections =
       0.0;  ///< collision detections, in units of the whole wire: a sample that is detected anew
             ///< counts as its share of all samples
-  int verifications = 0;      ///< checks of the final state against the field
+  int verifications = 0;  ///< checks of the final state against the field
+  bool walls_at_rest =
+      true;  ///< false: on an edge of the field the walls that touch swung to and fro until they were left as they
+             ///< were, within the gap error that verification allows
   int splits = 0;             ///< halvings of the command
   int newton_iterations = 0;  ///< over all sub-steps
   int rods = 0;

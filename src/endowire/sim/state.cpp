@@ -1,5 +1,9 @@
 #include "endowire/sim/state.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "endowire/base/error.hpp"
 #include "endowire/base/hash.hpp"
 
 namespace endowire::sim {
@@ -27,6 +31,58 @@ std::uint64_t State::hash() const {
     h.add(v[1]);
   }
   return h.value();
+}
+
+namespace {
+
+bool sound(const std::vector<Eigen::Vector3d>& list) {
+  return std::all_of(list.begin(), list.end(), [](const Eigen::Vector3d& v) { return v.allFinite(); });
+}
+
+bool sound(const std::vector<double>& list) {
+  return std::all_of(list.begin(), list.end(), [](double v) { return std::isfinite(v); });
+}
+
+bool ascending(const std::vector<double>& arcs) {
+  return sound(arcs) && std::is_sorted(arcs.begin(), arcs.end());
+}
+
+void require(bool good, const char* what) {
+  if (!good) throw base::InputError(what);
+}
+
+}  // namespace
+
+void require_sound(const State& state, int most_rods, std::size_t most_samples) {
+  const std::size_t rods = state.directors.size();
+  const auto most = static_cast<std::size_t>(most_rods);
+  require(
+      rods == 0 ? state.joints_mm.empty() && state.arc_mm.empty()
+                : rods >= 2 && rods <= most && state.joints_mm.size() == rods + 1 &&
+                      state.arc_mm.size() == rods - 1 && state.spin_rad.size() == rods &&
+                      state.twist_rad.size() == rods + 1,
+      "state: sizes of joints, arcs, directors, spin and twist do not belong together or to this instrument");
+  for (const double v : {state.inserted_mm, state.hand_turn_rad, state.grip_stretch_mm, state.grip_twist_rad,
+                         state.drift.advance_mm, state.drift.slip_mm})
+    require(std::isfinite(v), "state: lengths, turns and grip must be finite");
+  require(sound(state.joints_mm) && sound(state.directors) && sound(state.spin_rad) && sound(state.twist_rad),
+          "state: joints, directors, spin and twist must be finite");
+  require(rods == 0 ||
+              (state.arc_mm[0] == 0.0 && ascending(state.arc_mm) && state.inserted_mm > state.arc_mm.back()),
+          "state.arc_mm must begin with 0, ascend, and end before inserted_mm");
+  const contact::FrictionMemory& friction = state.friction;
+  require(friction.traction_n_per_mm.size() == friction.arc_mm.size() &&
+              friction.normal_n_per_mm.size() == friction.arc_mm.size() &&
+              friction.arc_mm.size() <= most_samples && ascending(friction.arc_mm) &&
+              sound(friction.normal_n_per_mm) &&
+              std::all_of(friction.traction_n_per_mm.begin(), friction.traction_n_per_mm.end(),
+                          [](const Eigen::Vector2d& t) { return t.allFinite(); }),
+          "state.friction: its lists must be finite, equally long, not too long for this instrument, and "
+          "arcs ascend");
+  require(state.drift.joints_mm.size() == state.drift.arc_mm.size() && state.drift.arc_mm.size() <= most &&
+              sound(state.drift.joints_mm) && ascending(state.drift.arc_mm),
+          "state.drift: its lists must be finite, equally long, not too long for this instrument, and arcs "
+          "ascend");
 }
 
 }  // namespace endowire::sim

@@ -25,12 +25,16 @@ struct State {
   std::vector<Eigen::Vector3d> directors;  ///< first material director of each rod, unit, normal to it
   std::vector<double> spin_rad;            ///< unwrapped turn of each rod about its axis
   std::vector<double> twist_rad;           ///< unwrapped twist at each joint
-  contact::FrictionMemory friction;        ///< anchors by material arc, tip first
+  contact::FrictionMemory friction;        ///< by material arc, tip first
   Drift drift;                             ///< of the last step: the next one begins with it
 
   bool operator==(const State&) const = default;
   /// Bits of everything above.
   [[nodiscard]] std::uint64_t hash() const;
 };
+
+/// @throws base::InputError naming the part of a state that cannot be: numbers that are not finite, lists that do not belong together or are
+/// too long, arcs that do not ascend, a wire that ends before its last joint.
+void require_sound(const State& state, int most_rods, std::size_t most_samples);
 
 }  // namespace endowire::sim

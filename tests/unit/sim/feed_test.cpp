@@ -86,6 +86,23 @@ TEST_F(Sheathed, GradientOfEverythingTogether) {
   }
 }
 
+// A trial that is not taken leaves nothing behind. Breaks when the entering rod keeps the length that the last trial gave it.
+TEST_F(Sheathed, ATrialThatIsNotTakenChangesNothing) {
+  lay(0.25, 9);
+  math::BandMatrix hessian;
+  hessian.resize(problem_.unknowns());
+  std::vector<double> before(direction_.size(), 0.0);
+  const double energy = problem_.linearise(hessian, before);
+  std::fill(direction_.begin(), direction_.end(), 0.0);
+  direction_[20] = 0.3;
+  EXPECT_GT(std::abs(problem_.try_step(direction_, 1.0) - energy), 1e-6);
+  std::vector<double> after(direction_.size(), 0.0);
+  EXPECT_EQ(problem_.linearise(hessian, after), energy);
+  EXPECT_EQ(after, before);
+  EXPECT_GT(std::abs(problem_.try_step(direction_, 1.0) - energy), 1e-6);
+  EXPECT_NEAR(problem_.energy_mj(), energy, 1e-12 * energy);
+}
+
 // On a uniform wire without a kink nothing is left out of the feed's row.
 class SheathedUniform : public Sheathed {
  protected:

@@ -309,6 +309,16 @@ TEST(Restore, RefusesAnInconsistentState) {
       s.friction.normal_n_per_mm.push_back(0.0);
     }
   });
+  const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+  refused([&](State& s) { s.joints_mm[3].y() = not_a_number; });
+  refused([&](State& s) { s.directors[0].x() = not_a_number; });
+  refused([&](State& s) { s.spin_rad[1] = not_a_number; });
+  refused([&](State& s) { s.twist_rad[1] = not_a_number; });
+  refused([&](State& s) { s.grip_stretch_mm = not_a_number; });
+  refused([&](State& s) { s.friction.traction_n_per_mm[1].x() = not_a_number; });
+  refused([&](State& s) { s.friction.normal_n_per_mm[1] = not_a_number; });
+  refused([&](State& s) { s.drift.joints_mm[1].z() = not_a_number; });
+  refused([](State& s) { s.inserted_mm = s.arc_mm.back(); });
   refused([](State& s) { s.drift.joints_mm.pop_back(); });
   refused([](State& s) { std::swap(s.drift.arc_mm[1], s.drift.arc_mm[2]); });
   refused([](State& s) {  // more rods than this wire has
