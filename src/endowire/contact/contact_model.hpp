@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "endowire/contact/friction.hpp"
+#include "endowire/contact/local_wall.hpp"
 #include "endowire/math/band_ldlt.hpp"
 #include "endowire/solve/newton.hpp"
 
@@ -12,8 +13,8 @@ namespace endowire::contact {
 
 /// A joint that moves along a line only, by its first unknown: the one at the sheath.
 struct GuidedJoint {
-  int joint = -1;  ///< −1: there is none
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
+  int joint = -1;                                        ///< −1: there is none
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< motion per unit of that unknown
 };
 
 /// Lays a gradient by the position of a point of a rod and by the rod's spin onto the unknowns.
@@ -37,7 +38,6 @@ struct LinearContact {
     double stiffness_n_per_mm = 0.0;                   ///< slope of that line
     bool closed = false;                               ///< as last evaluated; at first, as is to be assumed
   };
-  static constexpr std::size_t kMaxWalls = 4;
   int rod = 0;
   double fraction = 0.0;  ///< 0 at joint `rod` … 1 at joint `rod + 1`
   double radius_mm = 0.0;

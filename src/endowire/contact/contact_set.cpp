@@ -3,10 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "endowire/contact/crest.hpp"
-#include "endowire/contact/detect.hpp"
-#include "endowire/math/transport.hpp"
-
 namespace endowire::contact {
 
 namespace {
@@ -17,21 +13,6 @@ std::size_t at(int i) {
 
 /// Below this total normal force nothing rubs: the weight of a centimetre of wire.
 constexpr double kRubbingFloor_n = 1e-4;
-/// A sample on the wall that moved less cannot have passed one: its axis keeps a radius away.
-constexpr double kShortMove_mm = 0.1;
-constexpr double kAtDetection_mm = 0.1;
-/// Ridges are looked for at this spacing between samples, where normals differ by more than 3°, and matter from this depth on.
-constexpr double kRidgeStep_mm = 0.5;
-constexpr double kSameNormal = 0.9986;
-/// The normals of a detection tell of the walls here as long as a sample has moved less.
-constexpr double kStillThere_mm = 0.1;
-constexpr double kRidgeDip_mm = 0.03;
-/// Walls whose heights differ by less make a corner. A wall is not turned by more than this to follow the field: what turns
-/// faster is an edge. Corrections below these leave an equilibrium as it is.
-constexpr double kCorner_mm = 0.05;
-constexpr double kMostTilt = 0.3;
-constexpr double kSameHeight_mm = 2e-4;
-constexpr double kSameSlope = 2e-3;
 /// Renewals of the lagged normal forces after a detection that are taken whole, while the wire still moves; and the relaxation
 /// of those after them.
 constexpr int kFullRenewals = 3;
@@ -46,12 +27,6 @@ int intervals(double rod_length_mm, double lumen_radius_mm, const ContactSpec& s
   int count = 1;
   while (count < kMaxSamplesPerRod && rod_length_mm > spacing * count * (1.0 + 1e-9)) count *= 2;
   return count;
-}
-
-Eigen::Vector3d tangent_at(const rod::ChainShape& shape, const Sample& sample) {
-  const Eigen::Vector3d own = shape.frames[at(sample.rod)].col(2);
-  if (sample.fraction > 0.0 || sample.rod == 0) return own;
-  return (own + shape.frames[at(sample.rod - 1)].col(2)).normalized();
 }
 
 Eigen::Vector2d slip_of(const Sample& s, const rod::ChainShape& shape) {
@@ -93,63 +68,6 @@ WallLine line_for(const Sample& s, double depth_mm, const WallResponse& response
   const double expected_n = wall_response(s.stiffness_n_per_mm, s.cap_mm, expected_mm).force_n;
   const double slope = (response.force_n - expected_n) / (depth_mm - expected_mm);
   return {slope, depth_mm - response.force_n / slope, expected_n};
-}
-
-/// The wall that alone touches a sample, null at a corner, where walls are about as near as each other.
-LocalWall* single_wall(Sample& s, const Eigen::Vector3d& u, double nearest_mm) {
-  LocalWall* single = nullptr;
-  for (int k = 0; k < s.walls; ++k) {
-    if (local_height_mm(s.wall[at(k)], u) > nearest_mm + kCorner_mm) continue;
-    if (single != nullptr) return nullptr;
-    single = &s.wall[at(k)];
-  }
-  return single;
-}
-
-/// Gives the wall that a sample touches what the field says there.
-/// @return  whether that changes more than the solution's own accuracy
-bool correct_wall(Sample& s, const Eigen::Vector3d& u, double predicted_mm,
-                  const vessel::WallDistance& actual) {
-  if (s.at_crest) return false;
-  LocalWall* wall = single_wall(s, u, predicted_mm);
-  if (wall == nullptr) return false;
-  const double turn = (actual.gradient - local_height_derivatives(*wall, u).gradient).norm();
-  if (turn > kMostTilt) return false;
-  correct_local_wall(u, actual.distance_mm, actual.gradient, *wall);
-  return std::abs(actual.distance_mm - predicted_mm) > kSameHeight_mm || turn > kSameSlope;
-}
-
-bool reachable(const vessel::Field& field, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  return (reachable_point_mm(field, from, to) - to).norm() < 1e-9;
-}
-
-/// Whether all walls around two samples have one normal: then no ridge lies between them.
-bool walls_agree(const Sample& a, const Sample& b) {
-  const Eigen::Vector3d n = a.wall[0].normal.normalized();
-  for (const Sample* s : {&a, &b}) {
-    if (s->at_crest) return false;
-    for (int k = 0; k < s->walls; ++k) {
-      const LocalWall& wall = s->wall[at(k)];
-      if (wall.ridge || n.dot(wall.normal.normalized()) < kSameNormal) return false;
-    }
-  }
-  return true;
-}
-
-void set_stiffness(Sample& s) {
-  s.stiffness_n_per_mm = s.foundation_n_per_mm2 * s.share_mm() + s.tip_cap_n_per_mm;
-  s.stick_stiffness_n_per_mm = s.stick_ratio * s.stiffness_n_per_mm;
-  s.anchor_mm = s.traction_n_per_mm * s.share_mm() / s.stick_stiffness_n_per_mm;
-}
-
-/// The stretch that a sample stands for, and with it the force on it, when a part of it goes to another.
-void set_stretch(Sample& s, double from_mm, double to_mm) {
-  const double share = s.share_mm();
-  s.from_mm = from_mm;
-  s.to_mm = to_mm;
-  s.lagged_normal_n *= s.share_mm() / share;
-  s.last_lag_n = 0.0;
-  if (s.walls > 0) set_stiffness(s);
 }
 
 FrictionLaw friction_of(const Sample& s) {
@@ -210,137 +128,6 @@ void ContactSet::place(const Wire& wire, int rods_in_lumen, const vessel::Field&
     s.normal_n = s.lagged_normal_n;
     s.detected_at_mm = s.start_mm;
   }
-}
-
-namespace {
-
-/// The walls around a sample. One that was led back to where it came from, as between the two sides of a ridge, goes half of the
-/// way only: its places of detection are bisected.
-void detect_sample(const rod::ChainShape& shape, const vessel::Field& field, const ContactSpec& spec,
-                   Sample& s) {
-  Eigen::Vector3d way = s.position_mm(shape) - s.detected_at_mm;
-  if (way.dot(s.last_way_mm) < 0.0) way *= 0.5;
-  s.last_way_mm = way;
-  s.detected_at_mm = slid_point_mm(field, s.detected_at_mm, s.detected_at_mm + way, s.radius_mm);
-  s.wrong = false;
-  s.fresh = true;
-  s.last_lag_n = 0.0;
-  s.closed = {};
-  s.closed[0] = s.lagged_normal_n > 0.0;  // what touched before will touch again
-  const Eigen::Vector3d tangent = tangent_at(shape, s);
-  find_local_walls(field, spec, tangent, s);
-  if (s.walls == 0) return;
-  s.foundation_n_per_mm2 = wall_stiffness_n_per_mm2(spec.wall, s.lumen_radius_mm, s.radius_mm);
-  s.tip_cap_n_per_mm = s.arc_mm == 0.0 ? tip_cap_stiffness_n_per_mm(spec.wall, s.radius_mm) : 0.0;
-  s.stick_ratio = spec.stick_stiffness_ratio;
-  set_stiffness(s);
-  s.cap_mm = wall_cap_mm(spec.wall, s.lumen_radius_mm, field.tissue_to_next_lumen_mm(s.detected_at_mm));
-  const Eigen::Vector3d& n = s.wall[0].normal;
-  const Eigen::Vector3d along = tangent - n * n.dot(tangent);
-  s.axial = along.norm() > 0.1 ? along.normalized() : math::any_normal(n);
-  s.around = n.cross(s.axial);
-}
-
-}  // namespace
-
-/// What a sample remembers belongs to the material: it is recalled where the sample goes to.
-void ContactSet::move_to_crest(const Wire& wire, const vessel::Field& field, const ContactSpec& spec,
-                               std::size_t& hint, Sample& s) const {
-  const double arc_before = s.arc_mm;
-  const Eigen::Vector3d before = s.position_mm(wire.shape);
-  seek_crest(wire, field, spec, s);
-  if (s.arc_mm == arc_before) return;
-  s.detected_at_mm += s.position_mm(wire.shape) - before;
-  s.start_mm = start_position_mm(s);
-  s.start_spin_rad = start_shape_.spin_rad[at(s.rod)];
-  memory_.recall(hint, s);
-}
-
-void ContactSet::detect(const Wire& wire, const vessel::Field& field, const ContactSpec& spec) {
-  renewals_ = 0;
-  std::size_t hint = 0;
-  for (Sample& s : samples_) {
-    move_to_crest(wire, field, spec, hint, s);
-    s.detected_at_mm = s.start_mm;
-    s.last_way_mm.setZero();
-    detect_sample(wire.shape, field, spec, s);
-  }
-}
-
-int ContactSet::redetect(const Wire& wire, const vessel::Field& field, const ContactSpec& spec) {
-  int detected = 0;
-  std::size_t hint = 0;
-  for (Sample& s : samples_) {
-    if (!s.wrong) continue;
-    move_to_crest(wire, field, spec, hint, s);
-    detect_sample(wire.shape, field, spec, s);
-    ++detected;
-  }
-  return detected;
-}
-
-int ContactSet::add_over_ridges(const Wire& wire, const vessel::Field& field, bool rough_field) {
-  const rod::ChainShape& shape = wire.shape;
-  const double least_dip_mm = rough_field ? std::max(kRidgeDip_mm, field.error_mm()) : kRidgeDip_mm;
-  int added = 0;
-  for (std::size_t i = 0; i + 1 < samples_.size() && samples_.size() < samples_.capacity(); ++i) {
-    const Sample& a = samples_[i];
-    const Sample& b = samples_[i + 1];
-    const double gap = b.arc_mm - a.arc_mm;
-    if (gap <= 1.5 * kRidgeStep_mm) continue;
-    // φ falls by no more than the distance: two samples that are clear of the wall by the gap between them hide nothing.
-    if (a.walls == 0 && b.walls == 0 && a.clearance_mm + b.clearance_mm > gap) continue;
-    const bool near_detection = (a.position_mm(shape) - a.detected_at_mm).norm() < kStillThere_mm &&
-                                (b.position_mm(shape) - b.detected_at_mm).norm() < kStillThere_mm;
-    if (a.walls > 0 && b.walls > 0 && near_detection && walls_agree(a, b)) continue;
-    const int points = static_cast<int>(std::ceil(gap / kRidgeStep_mm));
-    double deepest = least_dip_mm;
-    double where = -1.0;
-    Sample probe = a;
-    const auto depth_at = [&](double arc_mm) {
-      put_at(wire.line, wire.material, arc_mm, probe);
-      return probe.radius_mm - field.at(probe.position_mm(shape)).distance_mm;
-    };
-    // A wall that gives way under the samples on both sides gives way between them as well.
-    const double at_a = std::max(0.0, depth_at(a.arc_mm));
-    const double at_b = std::max(0.0, depth_at(b.arc_mm));
-    for (int k = 1; k < points; ++k) {
-      const double share = static_cast<double>(k) / points;
-      const double dip = depth_at(a.arc_mm + gap * share) - (at_a + share * (at_b - at_a));
-      if (dip <= deepest) continue;
-      deepest = dip;
-      where = probe.arc_mm;
-    }
-    if (where < 0.0) continue;
-    add_between(wire, i, where);
-    ++added;
-    ++i;
-  }
-  return added;
-}
-
-void ContactSet::add_between(const Wire& wire, std::size_t before, double arc_mm) {
-  Sample& a = samples_[before];
-  Sample& b = samples_[before + 1];
-  Sample s;
-  s.rod = a.rod;
-  put_at(wire.line, wire.material, arc_mm, s);
-  s.nominal_mm = arc_mm;
-  s.from_mm = 0.5 * (a.arc_mm + arc_mm);
-  s.to_mm = 0.5 * (arc_mm + b.arc_mm);
-  set_stretch(a, a.from_mm, s.from_mm);
-  set_stretch(b, s.to_mm, b.to_mm);
-  a.nominal_mm = std::min(a.nominal_mm, a.to_mm);
-  b.nominal_mm = std::max(b.nominal_mm, b.from_mm);
-  s.start_mm = start_position_mm(s);
-  s.start_spin_rad = start_shape_.spin_rad[at(s.rod)];
-  std::size_t hint = 0;
-  memory_.recall(hint, s);
-  // It has followed its neighbours on their way: detection goes on from between them.
-  s.detected_at_mm = s.position_mm(wire.shape) + 0.5 * (a.detected_at_mm - a.position_mm(wire.shape) +
-                                                        b.detected_at_mm - b.position_mm(wire.shape));
-  s.wrong = true;
-  samples_.insert(samples_.begin() + static_cast<std::ptrdiff_t>(before) + 1, s);
 }
 
 double ContactSet::energy_mj(const rod::ChainShape& shape) {
@@ -465,51 +252,6 @@ void ContactSet::renew_lagged() {
     s.last_lag_n = s.normal_n - s.lagged_normal_n;
     s.lagged_normal_n = std::max(0.0, s.lagged_normal_n + relaxation_ * s.last_lag_n);
   }
-}
-
-Verification ContactSet::verify(const Wire& wire, const vessel::Field& field, const ContactSpec& spec,
-                                bool rough_field, bool correct) {
-  const rod::ChainShape& shape = wire.shape;
-  Verification result;
-  for (Sample& s : samples_) {
-    s.wrong = false;
-    const Eigen::Vector3d x = s.position_mm(shape);
-    const Eigen::Vector3d u = x - s.detected_at_mm;
-    // Within its clearance a sample cannot have touched anything, nor passed a wall.
-    if (u.norm() < s.clearance_mm) continue;
-    double error = HUGE_VAL;
-    // At the very place of detection the walls are the field; what they still miss there is the field's own roughness.
-    const double allowed = rough_field || u.norm() < kAtDetection_mm
-                               ? std::max(spec.gap_error_mm, field.error_mm())
-                               : spec.gap_error_mm;
-    if (u.norm() < kShortMove_mm || reachable(field, s.detected_at_mm, x)) {
-      double predicted = HUGE_VAL;
-      for (int k = 0; k < s.walls; ++k) predicted = std::min(predicted, local_height_mm(s.wall[at(k)], u));
-      const vessel::WallDistance there_is = field.at(x);
-      double actual = there_is.distance_mm;
-      if (std::min(actual, predicted) >= s.radius_mm) continue;
-      if (s.at_crest && actual > predicted + allowed) {  // the crest has slid along the wire
-        Sample there = s;
-        seek_crest(wire, field, spec, there);
-        actual = field.at(there.position_mm(shape)).distance_mm;
-      }
-      error = s.walls == 0 ? s.radius_mm - actual : std::abs(actual - predicted);
-      if (correct && error <= allowed && correct_wall(s, u, predicted, there_is)) result.corrected = true;
-    }
-    result.gap_error_mm = std::max(result.gap_error_mm, error);
-    s.wrong = error > allowed;
-    result.wrong_samples += s.wrong ? 1 : 0;
-  }
-  return result;
-}
-
-int ContactSet::mark_outside(const rod::ChainShape& shape, double region_mm) {
-  int outside = 0;
-  for (Sample& s : samples_) {
-    s.wrong = (s.position_mm(shape) - s.detected_at_mm).norm() > region_mm + std::max(0.0, s.clearance_mm);
-    outside += s.wrong ? 1 : 0;
-  }
-  return outside;
 }
 
 void ContactSet::remember(const rod::ChainShape& shape, FrictionMemory& memory) const {

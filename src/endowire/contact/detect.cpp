@@ -176,7 +176,7 @@ void find_local_walls(const vessel::Field& field, const ContactSpec& spec, const
   const double reach = std::min(kProbe_mm, kProbe_radii * sample.lumen_radius_mm);
   const double height = nearest.distance_mm;
   const auto add = [&](const vessel::WallDistance& probe, const Eigen::Vector3d& offset) {
-    if (sample.walls == Sample::kMaxWalls) return;
+    if (sample.walls == static_cast<int>(kMaxWalls)) return;
     if (probe.distance_mm > predicted_height_mm(sample, offset) - kNewWall_mm) return;
     const double norm = probe.gradient.norm();
     if (!(norm > 0.5)) return;

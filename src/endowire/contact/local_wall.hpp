@@ -42,6 +42,9 @@ struct LocalWall {
   Eigen::Matrix3d bend_per_mm = Eigen::Matrix3d::Zero();      ///< B
 };
 
+/// Walls that one sample may have around it: a corner of three and what is opposite.
+inline constexpr std::size_t kMaxWalls = 4;
+
 /// Height with its gradient and Hessian by the displacement.
 struct LocalHeight {
   double value_mm = 0.0;

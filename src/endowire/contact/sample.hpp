@@ -28,7 +28,6 @@ struct Sample {
   double friction = 0.0;
 
   // The wall as the last detection saw it.
-  static constexpr int kMaxWalls = 4;
   int walls = 0;
   std::array<LocalWall, kMaxWalls> wall;
   Eigen::Vector3d detected_at_mm = Eigen::Vector3d::Zero();
