@@ -140,9 +140,11 @@ double ChainProblem::linearise(math::BandMatrix& hessian, std::vector<double>& g
 }
 
 contact::GuidedJoint ChainProblem::guided() const {
-  // The wire that enters moves along the entering rod.
-  const int n = shape.rods();
-  return feed.active ? contact::GuidedJoint{n - 1, shape.frames[at(n - 2)].col(2)} : contact::GuidedJoint{};
+  // The wire that enters moves along the entering rod, and by its strain more than what is fed.
+  if (!feed.active) return {};
+  const int sheath = shape.rods() - 1;
+  return {sheath, (shape.joints_mm[at(sheath - 1)] - shape.joints_mm[at(sheath)]) /
+                      material.length_mm[at(sheath - 1)]};
 }
 
 void ChainProblem::hold(math::BandMatrix& hessian, std::vector<double>& gradient) const {

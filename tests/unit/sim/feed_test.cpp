@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "endowire/sim/chain_problem.hpp"
+#include "endowire/vessel/analytic_field.hpp"
 #include "support/chain_states.hpp"
 #include "support/taylor.hpp"
 #include "support/wires.hpp"
@@ -83,6 +84,50 @@ TEST_F(Sheathed, GradientOfEverythingTogether) {
     EXPECT_GT(std::abs(gradient[20]), 1e-3) << "nothing depends on the feed";
     test::expect_order([&](double h) { return energy_at(h) - energy - h * test::dot(gradient, direction_); },
                        2.0, 1e-12 * energy, "seed " + std::to_string(seed), 0.02);
+  }
+}
+
+class RubbingSheathed : public Sheathed {
+ protected:
+  RubbingSheathed() : Sheathed(rubbing_wire()) {}
+  static rod::Instrument rubbing_wire() {
+    rod::Instrument wire = varied_wire();
+    for (rod::Section& section : wire.sections) section.friction = 1.5;
+    return wire;
+  }
+};
+
+// What enters slides along the wall and rubs. Breaks when its samples move by the fed length and not by the strain more.
+TEST_F(RubbingSheathed, GradientWithContactAtTheEnteringRod) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    lay(0.02, seed);
+    problem_.shape.joints_mm[4] += 0.3 * problem_.shape.frames[4].col(2);  // 6 % of strain: its share is seen
+    problem_.shape = test::moved_chain(problem_.shape, std::vector<double>(28, 0.0), 1.0);
+    // A wide tube whose wall the entering rod has just entered.
+    constexpr double kRadius_mm = 60.0;
+    const Vector3d n = problem_.shape.frames[4].col(0);
+    const Vector3d middle = 0.5 * (problem_.shape.joints_mm[4] + problem_.shape.joints_mm[5]);
+    const vessel::TubeField tube(middle + (kRadius_mm - line_.radius_mm(18.0) + 0.1) * n,
+                                 problem_.shape.frames[4].col(2), kRadius_mm);
+    rod::ChainShape before = problem_.shape;  // it has slid since, and rubs
+    for (std::size_t j = 0; j < 5; ++j) before.joints_mm[j] -= 0.2 * problem_.shape.frames[4].col(2);
+    problem_.contact.place({line_, problem_.material, before}, 5, tube, {}, {});
+    problem_.contact.detect({line_, problem_.material, problem_.shape}, tube, {});
+    static_cast<void>(problem_.energy_mj());
+    problem_.contact.renew_lagged();
+    std::fill(direction_.begin(), direction_.end(), 0.0);
+    direction_[20] = 1.0;
+    math::BandMatrix hessian;
+    hessian.resize(problem_.unknowns());
+    std::vector<double> gradient(direction_.size(), 0.0);
+    const double energy = problem_.linearise(hessian, gradient);
+    double pressed_n = 0.0;
+    for (const contact::Sample& s : problem_.contact.samples())
+      if (s.rod == 4 && s.fraction > 0.0) pressed_n += s.normal_n;
+    ASSERT_GT(pressed_n, 0.01) << "the entering rod touches nothing";
+    ASSERT_NEAR(energy, problem_.energy_mj(), 1e-12 * energy);
+    constexpr double h = 1e-5;
+    EXPECT_NEAR(gradient[20], (energy_at(h) - energy_at(-h)) / (2.0 * h), 1e-5) << "seed " << seed;
   }
 }
 
