@@ -64,10 +64,10 @@ inline vessel::CentrelineTree tree_with_side_vessel() {
                         {"1.1:2", "1.1", 2, {0, 0, 1}, 30.0, 1.5, 0.0}});
 }
 
-/// Two branches that part where `bent_tube` begins to bend.
+/// Two vessels that meet where `bent_tube` begins to bend.
 inline vessel::CentrelineTree bent_tube_tree() {
   return straight_tree(
-      {{"1:1", "1", -1, {0, 0, 1}, 20.0, 3.0, 0.0}, {"1:2", "1", 0, {1, 0, 1}, 80.0, 3.0, 0.0}});
+      {{"1", "1", -1, {0, 0, 1}, 20.0, 3.0, 0.0}, {"1.1", "1.1", 0, {1, 0, 1}, 80.0, 3.0, 0.0}});
 }
 
 }  // namespace endowire::test

@@ -85,9 +85,14 @@ void EventWatch::watch_branch(const Snapshot& snapshot) {
   const vessel::NearestCentreline tip = tree_->nearest(tip_mm, place_);
   place_ = tip.place;
   const std::int32_t branch = tree_->lumen_branch(tip.place);
-  if (branch == branch_) return;
-  if (branch_ >= 0 && !inside(branch, tip)) return;
-  if (branch_ >= 0) begun_.push_back({EventKind::new_branch, tip.radius_mm, tip_mm, branch});
+  const auto vessel_of = [&](std::int32_t b) -> const std::string& {
+    return tree_->branches()[static_cast<std::size_t>(b)].vessel;
+  };
+  // The next stretch of the same vessel is no news.
+  if (branch_ >= 0 && vessel_of(branch) != vessel_of(branch_)) {
+    if (!inside(branch, tip)) return;
+    begun_.push_back({EventKind::new_branch, tip.radius_mm, tip_mm, branch});
+  }
   branch_ = branch;
 }
 

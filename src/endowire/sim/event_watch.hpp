@@ -25,20 +25,20 @@ inline constexpr double event_quiet_mm = 3.0;
 inline constexpr double stall_window_mm = 5.0;
 inline constexpr double stall_progress = 0.1;
 inline constexpr double free_progress = 0.5;
-/// A branch is entered when the tip is so far beyond its ostium, in radii of the lumen. Less: a tip that rubs on a
-/// carina changes branch at each step.
+/// A vessel is entered when the tip is so far beyond its ostium, or beyond the bifurcation on the way back, in radii of
+/// the lumen. Less: a tip that rubs on a carina changes vessel at each step.
 inline constexpr double branch_depth_radii = 0.5;
 
 /// Turns what single steps show into events that are told once, when they begin.
 ///
 /// Stands above the step: it reads commands, reports and snapshots, and changes nothing. It is a value: saved and put
-/// back together with the State it goes on as if nothing had happened. After the first steps it allocates nothing.
+/// back together with the State it goes on as if nothing had happened.
 class EventWatch {
  public:
-  /// @param tree  of the vessel; null or empty: new branches are not watched for
+  /// @param tree  of the vessel; null or empty: vessels entered are not watched for
   explicit EventWatch(std::shared_ptr<const vessel::CentrelineTree> tree = nullptr);
 
-  /// Memory for wires of so many points and so long.
+  /// Memory for wires of so many points and so long: afterwards `after` allocates nothing.
   void reserve(std::size_t points, double length_mm);
 
   /// The events that began in the step just taken; valid until the next call.

@@ -164,6 +164,26 @@ TEST_F(BranchWatch, TheFirstBranchIsNoEventTheNextOneIs) {
   EXPECT_EQ(told[0].branch, 0);
 }
 
+// Breaks when each stretch between two bifurcations counts: an aorta has one at every vessel that leaves it.
+TEST_F(BranchWatch, TheNextStretchOfTheSameVesselIsNoEvent) {
+  for (int z = 0; z <= 98; z += 2) EXPECT_TRUE(step_at({0, 0, 1.0 * z}, {2.0, 0.0}).empty()) << z;
+  for (int z = 98; z > 40; z -= 2) EXPECT_TRUE(step_at({0, 0, 1.0 * z}, {-2.0, 0.0}).empty()) << z;
+  std::vector<Event> told;
+  for (int x = 0; x <= 80; x += 2)
+    for (const Event& e : step_at({1.0 * x, 0, 60.0}, {2.0, 0.0})) told.push_back(e);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].branch, 2);
+  for (int z = 62; z <= 88; z += 2)
+    EXPECT_TRUE(step_at({80.0, 0, 1.0 * z}, {2.0, 0.0}).empty()) << "the side vessel goes on, z = " << z;
+  // Back into the stem, beyond the bifurcation: its other stretch.
+  for (int x = 78; x >= 0; x -= 2)
+    for (const Event& e : step_at({1.0 * x, 0, 60.0}, {-2.0, 0.0})) told.push_back(e);
+  for (int z = 62; z <= 80; z += 2)
+    for (const Event& e : step_at({0, 0, 1.0 * z}, {2.0, 0.0})) told.push_back(e);
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_EQ(told[1].branch, 1);
+}
+
 TEST_F(BranchWatch, ATipThatRubsOnTheCarinaDoesNotFlicker) {
   for (int z = 50; z <= 58; z += 2) EXPECT_TRUE(step_at({0, 0, 1.0 * z}, {2.0, 0.0}).empty());
   int told = 0;
