@@ -79,8 +79,10 @@ Target find_target(const CentrelineTree& tree, const TargetSpec& spec) {
   if (spec.branch.empty()) {
     const CentrelinePlace place = near(tree, spec.near_mm);
     target.branch = tree.lumen_branch(place);
-    if (!spec.beyond_ostium_mm && target.branch == place.branch)
-      target.beyond_ostium_mm = place.arc_mm - branch_of(tree, target.branch).ostium_arc_mm;
+    const CentrelineBranch& branch = branch_of(tree, target.branch);
+    // Before the ostium of a branch: at the end of the parent's, in whose lumen the point lies.
+    const double arc_mm = target.branch == place.branch ? place.arc_mm : branch.length_mm;
+    if (!spec.beyond_ostium_mm) target.beyond_ostium_mm = arc_mm - branch.ostium_arc_mm;
   } else {
     target.branch = named(tree, spec.branch);
   }

@@ -73,6 +73,16 @@ TEST_F(TargetTest, APointTellsTheBranchAndHowFar) {
   EXPECT_TRUE(target.position_mm.isApprox(Vector3d(15.0, 0.0, 60.0), 1e-9));
 }
 
+// Breaks when the goal falls back to where the parent begins.
+TEST_F(TargetTest, APointBeforeAnOstiumIsTheEndOfTheParent) {
+  TargetSpec spec;
+  spec.near_mm = {4.0, 0.0, 60.0};  // the side vessel's ostium is at 5 mm
+  const Target target = find_target(tree_, spec);
+  EXPECT_EQ(target.branch, 0);
+  EXPECT_NEAR(target.beyond_ostium_mm, 60.0, 1e-9);
+  EXPECT_TRUE(target.position_mm.isApprox(Vector3d(0.0, 0.0, 60.0), 1e-9)) << target.position_mm.transpose();
+}
+
 TEST_F(TargetTest, WhatTheTreeHasNotIsRefused) {
   EXPECT_EQ(refusal(side(200.0)),
             "target.beyond_ostium_mm is 200; must be <= 105, where the vessel of branch 1.1:1 ends");
