@@ -9,6 +9,7 @@
 
 #include "endowire/io/base64.hpp"
 #include "endowire/io/lumen_shading.hpp"
+#include "endowire/io/markup.hpp"
 #include "endowire/io/png.hpp"
 #include "endowire/io/view.hpp"
 
@@ -108,29 +109,6 @@ double nice_below(double value) {
   return power;
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return out;
-}
-
 /// A light rim that keeps a label readable on dark ground.
 const char* const halo =
     "paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"3.5\" stroke-linejoin=\"round\"";
@@ -141,7 +119,7 @@ class Svg {
   void text(double x, double y, const std::string& content, double size, const std::string& fill,
             const std::string& more = "") {
     add(fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" fill=\"{}\" {}>{}</text>", x, y, size,
-                    fill, more, escaped(content)));
+                    fill, more, escaped_markup(content)));
   }
   void line(const Vector2d& a, const Vector2d& b, const std::string& stroke, double width,
             const std::string& more = "") {

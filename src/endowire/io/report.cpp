@@ -7,6 +7,7 @@
 
 #include "endowire/io/base64.hpp"
 #include "endowire/io/decimate.hpp"
+#include "endowire/io/markup.hpp"
 #include "endowire/io/report_page.hpp"
 #include "endowire/io/version.hpp"
 #include "endowire/io/view.hpp"
@@ -103,29 +104,6 @@ json summary_of(const std::string& text) {
   return summary;
 }
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
 /// Inside a script element nothing may look like its end.
 std::string inside_script(const json& value) {
   std::string out;
@@ -172,7 +150,7 @@ std::string report_html(const ReportContent& content) {
       {"vessel", vessel_json(content.mesh)},
       {"series", series_json(content.history)},
       {"wire", wire_json(content.history)}};
-  return filled(report_page::html, {{"title", escaped(content.title)},
+  return filled(report_page::html, {{"title", escaped_markup(content.title)},
                                     {"style", std::string(report_page::style)},
                                     {"run", inside_script(run)},
                                     {"script", std::string(report_page::script)}});
