@@ -5,10 +5,12 @@
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "endowire/base/error.hpp"
 #include "endowire/io/file.hpp"
 #include "endowire/io/instrument_json.hpp"
+#include "endowire/io/scene_file.hpp"
 
 namespace endowire::io {
 
@@ -18,9 +20,7 @@ using nlohmann::json;
 namespace {
 
 constexpr std::uintmax_t max_recording_bytes = std::uintmax_t{1} << 30;  // ten million commands
-// No hand does more in a step; the bounds of a scene's motions are the same.
-constexpr double max_advance_mm = 1e4;
-constexpr double max_torque_rad = 2e4;
+constexpr double max_motion_rad = max_motion_deg * std::numbers::pi / 180.0;
 
 // Bytes that are no UTF-8 (a path may hold any) must not stop a recording.
 std::string dump(const json& value) {
@@ -67,8 +67,7 @@ RecordedCommand command_of(const json& value, const std::vector<RecordedCommand>
   RecordedCommand command;
   command.step = value.at("step").get<std::uint64_t>();
   command.time_s = value.at("time_s").get<double>();
-  command.command = {bounded(hand, "advance_mm", max_advance_mm),
-                     bounded(hand, "torque_rad", max_torque_rad)};
+  command.command = {bounded(hand, "advance_mm", max_motion_mm), bounded(hand, "torque_rad", max_motion_rad)};
   check_step(command.step, before.size() + 1);
   const double earlier_s = before.empty() ? 0.0 : before.back().time_s;
   if (!(command.time_s >= earlier_s))

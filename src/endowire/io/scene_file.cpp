@@ -20,9 +20,7 @@ using base::InputError;
 namespace {
 
 constexpr std::uintmax_t max_scene_bytes = 16 << 20;  // a hand-written file, with room for long scripts
-constexpr double max_steps = 1e6;      // three hours at 100 Hz; a slip of a unit gives far more
-constexpr double max_motion_mm = 1e4;  // three times the longest wire made
-constexpr double max_motion_deg = 1e6;
+constexpr double max_steps = 1e6;  // three hours at 100 Hz; a slip of a unit gives far more
 
 const char* const default_perforation_source =
     "estimate: the order at which a stiff tip passes an arterial wall; no measurement is cited";

@@ -14,6 +14,10 @@
 
 namespace endowire::io {
 
+/// The most that a hand does in one motion of a scene, and so in one recorded step; a slip of a unit gives more.
+inline constexpr double max_motion_mm = 1e4;   ///< three times the longest wire made
+inline constexpr double max_motion_deg = 1e6;  ///< nearly three thousand turns
+
 /// Where the vessel comes from: a file, or an anatomy made in code.
 struct VesselSource {
   std::filesystem::path file;  ///< as it can be opened from here; empty when generated
