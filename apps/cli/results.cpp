@@ -41,8 +41,10 @@ std::string events_text(const io::RunStatistics& statistics) {
     const std::string_view kind = io::name_of(timed.event.kind);
     const auto found =
         std::find_if(counts.begin(), counts.end(), [&](const auto& c) { return c.first == kind; });
-    found == counts.end() ? static_cast<void>(counts.emplace_back(kind, 1))
-                          : static_cast<void>(++found->second);
+    if (found == counts.end())
+      counts.emplace_back(kind, 1);
+    else
+      ++found->second;
   }
   std::string text;
   for (const auto& [kind, count] : counts)

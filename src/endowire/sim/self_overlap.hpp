@@ -10,9 +10,9 @@
 
 namespace endowire::sim {
 
-/// The place where a wire comes nearest to itself.
+/// The place where a wire lies deepest in itself.
 struct SelfGap {
-  double gap_mm = std::numeric_limits<double>::infinity();  ///< between the surfaces; < 0: they overlap
+  double gap_mm = std::numeric_limits<double>::infinity();  ///< between the surfaces, < 0; infinite: none
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();    ///< on the part nearer to the tip
 };
 
