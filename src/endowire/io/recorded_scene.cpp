@@ -15,8 +15,6 @@ using base::InputError;
 
 namespace {
 
-const char* const generated_prefix = "generate:";
-
 bool is_file(const fs::path& path) {
   std::error_code error;
   return fs::is_regular_file(path, error);

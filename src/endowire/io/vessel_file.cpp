@@ -35,7 +35,7 @@ VesselMesh read_vessel_file(const fs::path& path, vessel::LengthUnit unit) {
 VesselMesh generate_vessel(const vessel::GenerateRequest& request) {
   const vessel::GeneratedVessel made = vessel::generate(request);
   VesselMesh mesh;
-  mesh.source = "generate:" + request.name;
+  mesh.source = std::string(generated_prefix) + request.name;
   if (request.seed) mesh.source += " seed " + std::to_string(*request.seed);
   mesh.content_hash = vessel::content_hash(made.mesh);
   mesh.repaired = vessel::repair(made.mesh, mesh.source);

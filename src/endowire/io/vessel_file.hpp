@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "endowire/sim/scene.hpp"
 #include "endowire/vessel/generate.hpp"
@@ -12,6 +13,9 @@
 #include "endowire/vessel/repair.hpp"
 
 namespace endowire::io {
+
+/// What the source of a vessel made in code begins with.
+inline constexpr std::string_view generated_prefix = "generate:";
 
 /// A vessel as read and understood, not yet prepared.
 struct VesselMesh {
