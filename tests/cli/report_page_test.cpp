@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <regex>
+#include <sstream>
 
 #include "program.hpp"
 #include "vessels.hpp"
@@ -42,20 +42,38 @@ std::string root_attribute(const std::string& dom, const std::string& name) {
                                                                                            : "";
 }
 
-/// Does what a user does and writes down what the page makes of it.
+/// A browser without a screen gives animation frames when it likes: timers stand in for them.
+const char* const frames = R"(<script>
+  window.requestAnimationFrame = draw => setTimeout(() => draw(performance.now()), 16);
+  window.cancelAnimationFrame = clearTimeout;
+</script>)";
+
+/// Does what a user does and writes down what the page makes of it: where the tip is drawn after each movement.
 const char* const user = R"(<script>
+(async () => {
   const root = document.documentElement.dataset;
   root.errors = "";
   window.addEventListener("error", event => { root.errors += event.message + ";"; });
+  const seen = [];
+  const look = () => new Promise(done => setTimeout(() => {
+    const tip = document.querySelector(".labels .tip");
+    seen.push(tip ? tip.style.left + " " + tip.style.top : "nowhere");
+    done();
+  }, 200));
+  await look();
   const view = document.getElementById("view"), box = view.getBoundingClientRect();
-  const pointer = (kind, x, more) => view.dispatchEvent(new PointerEvent(kind,
-    { pointerId: 1, clientX: box.left + x, clientY: box.top + 90, buttons: 1, bubbles: true, ...more }));
+  const pointer = (kind, x, y, more) => view.dispatchEvent(new PointerEvent(kind,
+    { pointerId: 1, clientX: box.left + x, clientY: box.top + y, buttons: 1, bubbles: true, ...more }));
   view.setPointerCapture = () => {};
-  pointer("pointerdown", 50);
-  pointer("pointermove", 120);
-  pointer("pointermove", 150, { shiftKey: true });
-  pointer("pointerup", 150);
+  pointer("pointerdown", 50, 90);
+  pointer("pointermove", 120, 150);
+  await look();
+  pointer("pointermove", 150, 150, { shiftKey: true });
+  pointer("pointerup", 150, 150);
+  await look();
   view.dispatchEvent(new WheelEvent("wheel", { deltaY: -300, clientX: box.left + 80, clientY: box.top + 80 }));
+  await look();
+  root.seen = seen.join(",");
   for (const name of ["side", "tip", "front"]) document.querySelector(`[data-view=${name}]`).click();
   document.querySelector("[data-axis=time_s]").click();
   const scrub = document.getElementById("scrub"), when = document.getElementById("when");
@@ -67,6 +85,7 @@ const char* const user = R"(<script>
   root.stepped = when.textContent;
   document.getElementById("theme").click();
   document.getElementById("play").click();
+})();
 </script>)";
 
 class ReportPage : public ::testing::Test {
@@ -87,18 +106,27 @@ class ReportPage : public ::testing::Test {
 TEST_F(ReportPage, AnswersToTheUsersHands) {
   std::string page = test::read_text(folder_ / "out/report.html");
   page.insert(page.find("</body>"), user);
+  page.insert(page.find("<body>"), frames);
   test::write_text(folder_ / "used.html", page);
   const std::string dom = page_in(program_, folder_, "used.html", "1000,800");
   EXPECT_EQ(root_attribute(dom, "data-errors"), "");
   EXPECT_NE(root_attribute(dom, "data-scrubbed").find("step 5"), std::string::npos) << dom.substr(0, 400);
   EXPECT_NE(root_attribute(dom, "data-stepped").find("step 7"), std::string::npos) << "two keys further";
+  if (root_attribute(dom, "data-picture") == "none") GTEST_SKIP() << program_ << " offers no WebGL 2 here";
+  const std::string seen = root_attribute(dom, "data-seen");
+  std::vector<std::string> places;
+  std::stringstream list(seen);
+  for (std::string place; std::getline(list, place, ',');) places.push_back(place);
+  ASSERT_EQ(places.size(), 4U) << seen;
+  for (std::size_t i = 1; i < places.size(); ++i)
+    EXPECT_NE(places[i], places[i - 1]) << (i == 1 ? "turned" : i == 2 ? "moved" : "zoomed") << ": " << seen;
 }
 
 TEST_F(ReportPage, IsDrawnByABrowserAtTwoSizes) {
   for (const char* size : {"1400,900", "390,844"}) {
     const std::string dom = page_in(program_, folder_, "out/report.html#check&step=12&theme=light", size);
     ASSERT_EQ(root_attribute(dom, "data-ready"), "true") << "the scripts did not run to their end";
-    if (root_attribute(dom, "data-view") == "none") GTEST_SKIP() << program_ << " offers no WebGL 2 here";
+    if (root_attribute(dom, "data-picture") == "none") GTEST_SKIP() << program_ << " offers no WebGL 2 here";
     EXPECT_GT(std::stol("0" + root_attribute(dom, "data-drawn")), 2'000)
         << size << ": pixels of vessel and wire";
     EXPECT_NE(dom.find("<h1 id=\"title\">s</h1>"), std::string::npos);

@@ -120,7 +120,7 @@ function startScene() {
   } catch (error) {
     byId("trouble").hidden = false;
     byId("trouble").textContent = error.message + " The charts below work without it.";
-    document.documentElement.dataset.view = "none";
+    document.documentElement.dataset.picture = "none";
   }
 }
 
@@ -210,7 +210,7 @@ function handleCanvas() {
     canvas.addEventListener(end, event => held.delete(event.pointerId));
   canvas.addEventListener("pointermove", event => {
     const before = held.get(event.pointerId);
-    if (!before || !scene) return;
+    if (!before) return;
     const dx = event.clientX - before.clientX, dy = event.clientY - before.clientY;
     held.set(event.pointerId, event);
     if (held.size === 2) {
@@ -344,7 +344,7 @@ fillRows();
 fillEvents();
 fillLegend();
 startScene();
-handleCanvas();
+if (scene) handleCanvas();
 handleTime();
 for (const button of document.querySelectorAll("[data-view]"))
   button.addEventListener("click", () => setView(button.dataset.view));
