@@ -73,6 +73,22 @@ json failure_json(const RunStatistics& run) {
           {"moment_residual_n_mm", finite(first.solve.moment_residual_n_mm)}};
 }
 
+/// The target and how far the tip is from it; null without a target.
+json target_json(const SceneFile& scene, const RunGoal& goal, const Eigen::Vector3d& tip_mm) {
+  if (!goal.target || !scene.target) return nullptr;
+  const sim::Target& target = *goal.target;
+  const sim::TargetDistance distance = sim::distance_to(target, goal.tree, tip_mm);
+  return {{"name", scene.target->name},
+          {"branch", name_or_null(goal.tree, target.branch)},
+          {"beyond_ostium_mm", finite(target.beyond_ostium_mm)},
+          {"within_radii", finite(target.within_radii)},
+          {"position_mm", vector_json(target.position_mm)},
+          {"radius_mm", finite(target.radius_mm)},
+          {"reached", distance.reached},
+          {"to_go_mm", finite(distance.to_go_mm)},
+          {"offset_radii", finite(distance.offset_radii)}};
+}
+
 }  // namespace
 
 json vessel_json(const VesselMesh& mesh, const vessel::MeshField& field) {
@@ -124,21 +140,6 @@ json vessel_json(const VesselMesh& mesh, const vessel::MeshField& field) {
             {"error_p99_mm", finite(facts.error_p99_mm)},
             {"error_p50_mm", finite(facts.error_p50_mm)},
             {"refinement_complete", facts.refinement_complete}}}};
-}
-
-json target_json(const SceneFile& scene, const RunGoal& goal, const Eigen::Vector3d& tip_mm) {
-  if (!goal.target || !scene.target) return nullptr;
-  const sim::Target& target = *goal.target;
-  const sim::TargetDistance distance = sim::distance_to(target, goal.tree, tip_mm);
-  return {{"name", scene.target->name},
-          {"branch", name_or_null(goal.tree, target.branch)},
-          {"beyond_ostium_mm", finite(target.beyond_ostium_mm)},
-          {"within_radii", finite(target.within_radii)},
-          {"position_mm", vector_json(target.position_mm)},
-          {"radius_mm", finite(target.radius_mm)},
-          {"reached", distance.reached},
-          {"to_go_mm", finite(distance.to_go_mm)},
-          {"offset_radii", finite(distance.offset_radii)}};
 }
 
 std::string summary_json(const SceneFile& scene, const VesselMesh& mesh, const vessel::MeshField& field,

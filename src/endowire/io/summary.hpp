@@ -36,10 +36,6 @@ struct RunGoal {
   std::optional<sim::Target> target;
 };
 
-/// The target and how far the tip is from it; null without a target.
-[[nodiscard]] nlohmann::ordered_json target_json(const SceneFile& scene, const RunGoal& goal,
-                                                 const Eigen::Vector3d& tip_mm);
-
 /// `summary.json`, schema 1. A number that is not finite becomes null.
 [[nodiscard]] std::string summary_json(const SceneFile& scene, const VesselMesh& mesh,
                                        const vessel::MeshField& field, const RunGoal& goal,
