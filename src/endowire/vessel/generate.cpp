@@ -62,9 +62,9 @@ const Recipe& recipe_of(const GenerateRequest& request) {
 std::string try_plan(const Recipe& recipe, const Values& values, const std::string& prefix, Plan& plan) {
   if (const std::string conflict = recipe.conflict(values); !conflict.empty()) return prefix + conflict;
   plan = recipe.plan(values);
-  const std::string crowding = crowding_of(plan);
-  if (crowding.empty()) return {};
-  return prefix.substr(0, prefix.find_last_not_of(". ") + 1) + ": they " + crowding;
+  const std::string fault = fault_of(plan);
+  if (fault.empty()) return {};
+  return prefix.substr(0, prefix.find_last_not_of(". ") + 1) + ": they " + fault;
 }
 
 Values values_of(const Recipe& recipe, const GenerateRequest& request, Plan& plan) {
@@ -113,9 +113,18 @@ GeneratedVessel generate(const GenerateRequest& request) {
   Plan plan;
   const Values values = values_of(recipe, request, plan);
   apply_lesions(plan, request.lesions, request.stenosis_field, request.aneurysm_field);
+  // Without its lesions the plan had no fault, and a stenosis brings nothing nearer.
+  if (const std::string fault = request.lesions.empty() ? "" : fault_of(plan); !fault.empty())
+    throw base::InputError(request.aneurysm_field + ": they " + fault);
+  std::optional<TriangleMesh> mesh = mesh_of(plan, request.open_ends);
+  if (!mesh)
+    throw base::InputError(
+        request.generator_field +
+        ": this vessel touches itself, or its wall turns too sharply; must be wider bends, or "
+        "lesions that are longer or change the diameter less");
   GeneratedVessel vessel;
   describe(vessel, plan, values);
-  vessel.mesh = mesh_of(plan, request.open_ends);
+  vessel.mesh = std::move(*mesh);
   return vessel;
 }
 

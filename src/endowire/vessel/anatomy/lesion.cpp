@@ -40,6 +40,8 @@ void apply(Plan& plan, const LesionRequest& request, const std::string& field) {
   if (stenosis)
     check(field, "percent", request.percent, stenosis_least_percent,
           std::min(stenosis_most_percent, std::floor(100.0 * (1.0 - least_radius_mm / radius))));
+  const double gentlest_mm = lesion_length_mm(0.01 * request.percent * radius, lesion_steepest);
+  check(field, "length_mm", request.length_mm, 0.1 * std::ceil(10.0 * gentlest_mm), lesion_most_mm);
   const double factor = 1.0 + (stenosis ? -0.01 : 0.01) * request.percent;
   add_lesion(plan, index, {arc, request.length_mm, factor});
 }

@@ -26,6 +26,9 @@ inline constexpr double aneurysm_least_percent = 20.0;
 inline constexpr double aneurysm_most_percent = 300.0;
 inline constexpr double lesion_least_mm = 4.0;
 inline constexpr double lesion_most_mm = 150.0;
+/// Of the shoulders, change of the radius along the axis: 45°. Steeper ones are no distance to an axis any more, and ask
+/// for triangles without number.
+inline constexpr double lesion_steepest = 1.0;
 /// What a stenosis leaves of the radius at least: half a wire of 0.014 inch, and room for it.
 inline constexpr double least_radius_mm = 0.3;
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,12 +58,16 @@ struct Plan {
 /// The circles that the vessels of a plan end with, in the order of its ends.
 [[nodiscard]] std::vector<Rim> rims_of(const Plan& plan);
 
-/// Two vessels that come too near each other though neither leaves the other: the end of a message,
-/// `leave 0.4 mm between A and B; must be >= 1.5 mm`; empty when there are none.
-[[nodiscard]] std::string crowding_of(const Plan& plan);
+/// Why a plan is no vessel, as the end of a message; empty when it is one. Either two vessels come too near each other
+/// though neither leaves the other, `leave 0.4 mm between A and B; must be >= 1.5 mm`, or one is too wide for a bend of
+/// its axis, where the wall would fold: `make A 110 mm wide in a bend of 34 mm radius; must be <= 61 mm`.
+[[nodiscard]] std::string fault_of(const Plan& plan);
 
-/// The surface of a plan's lumen.
+/// The surface of a plan's lumen: every facet faces outward, and there are no handles.
 /// @param open_ends  openings at the vessels' ends; else half balls behind them, and the mesh is closed
-[[nodiscard]] TriangleMesh mesh_of(const Plan& plan, bool open_ends, const EdgeSizes& sizes = {});
+/// @return           nothing where no grid shows such a surface: vessels touch where `fault_of` does not look, as one
+///                   that is its own neighbour, or the wall turns within less than a facet
+[[nodiscard]] std::optional<TriangleMesh> mesh_of(const Plan& plan, bool open_ends,
+                                                  const EdgeSizes& sizes = {});
 
 }  // namespace endowire::vessel::anatomy

@@ -35,6 +35,10 @@ Value factor_of(const Lesion& lesion, double arc_mm) {
 
 }  // namespace
 
+double lesion_length_mm(double depth_mm, double slope) {
+  return 2.0 * depth_mm / slope * 96.0 / (25.0 * std::sqrt(5.0));
+}
+
 RadiusProfile::RadiusProfile(std::vector<Mark> marks) {
   ENDOWIRE_EXPECTS(!marks.empty(), "a vessel has a calibre");
   first_radius_mm_ = marks.front().radius_mm;

@@ -11,6 +11,11 @@ struct Lesion {
   double radius_factor = 1.0;  ///< of the lumen's radius in the middle; below 1 a stenosis, above an aneurysm
 };
 
+/// How long a lesion is whose shoulders reach a slope: that of (1 - u²)³ is 96 / (25 √5) at most, at u² = 1/5.
+/// @param depth_mm  what the radius in the middle is less, or more
+/// @param slope     change of the radius along the axis [-]
+[[nodiscard]] double lesion_length_mm(double depth_mm, double slope);
+
 /// The lumen's radius along an axis: twice continuously differentiable, without overshoot.
 ///
 ///   r(s) = r₀ + Σᵢ (mᵢ − mᵢ₋₁) ramp(s − sᵢ; wᵢ),   ramp(x; w) = ½ (x + w σ(x / w))

@@ -57,8 +57,8 @@ TEST(Lesion, SeveralInSmallVessels) {
   test::expect_sound_mesh(made, true);
 }
 
-std::string refused(const anatomy::LesionRequest& lesion) {
-  GenerateRequest request = with({lesion});
+std::string refused(const anatomy::LesionRequest& lesion, const char* name = "aortic_arch") {
+  GenerateRequest request = with({lesion}, name);
   request.stenosis_field = "s.toml: vessel.stenosis";
   request.aneurysm_field = "s.toml: vessel.aneurysm";
   return test::message_of<base::InputError>([&] { static_cast<void>(generate(request)); });
@@ -82,6 +82,30 @@ TEST(Lesion, BadOnesAreRefusedByFieldValueAndRange) {
             "s.toml: vessel.stenosis[0].arc_mm is 300; must be between 10 and 165");
   EXPECT_EQ(refused({Kind::stenosis, carotid, std::nan(""), 20.0, 50.0}),
             "s.toml: vessel.stenosis[0].arc_mm is nan; must be between 10 and 165");
+}
+
+/// As wide as the arch is round the wall would fold, and where a neighbour runs close by the two would be one.
+TEST(Lesion, AneurysmsWithoutRoomAreRefused) {
+  const std::string siphon = "internal carotid to middle cerebral artery";
+  const std::string folded = refused({Kind::aneurysm, siphon, 140.0, 30.0, 300.0}, "carotid_siphon");
+  EXPECT_EQ(folded.rfind("s.toml: vessel.aneurysm: they make " + siphon, 0), 0U) << folded;
+  const std::string crowded = refused({Kind::aneurysm, "aorta to right iliac artery", 100.0, 140.0, 280.0});
+  EXPECT_EQ(crowded.rfind("s.toml: vessel.aneurysm: they leave ", 0), 0U) << crowded;
+}
+
+TEST(Lesion, ShouldersSteeperThanHalfARightAngleAreRefused) {
+  const std::string carotid = "left carotid artery";  // 6.3 mm wide there
+  const double shortest_mm = 2.0 * 0.9 * 3.15 * 96.0 / (25.0 * std::sqrt(5.0));
+  const std::string steep = refused({Kind::stenosis, carotid, 80.0, 0.98 * shortest_mm, 90.0});
+  EXPECT_EQ(steep.rfind("s.toml: vessel.stenosis[0].length_mm is ", 0), 0U) << steep;
+  const GeneratedVessel steepest =
+      generate(with({{Kind::stenosis, carotid, 80.0, 1.02 * shortest_mm, 90.0}}));
+  double slope = 0.0;
+  for (const auto& station : test::MeasuredVessel(steepest).branch(carotid).axis.stations())
+    slope = std::max(slope, std::abs(station.radius_slope));
+  EXPECT_GT(slope, 0.9);
+  EXPECT_LT(slope, 1.0);
+  test::expect_sound_mesh(steepest, true);
 }
 
 }  // namespace

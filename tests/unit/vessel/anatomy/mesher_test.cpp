@@ -8,8 +8,10 @@
 #include "endowire/vessel/anatomy/cell_pattern.hpp"
 #include "endowire/vessel/anatomy/contour.hpp"
 #include "endowire/vessel/anatomy/cut.hpp"
+#include "endowire/vessel/anatomy/plan.hpp"
 #include "endowire/vessel/anatomy/portable.hpp"
 #include "endowire/vessel/anatomy/remesh.hpp"
+#include "endowire/vessel/anatomy/sketch.hpp"
 #include "endowire/vessel/random.hpp"
 #include "support/mesh_facts.hpp"
 
@@ -161,3 +163,24 @@ TEST(Cut, OpensAVesselAlongACircle) {
 
 }  // namespace
 }  // namespace endowire::vessel::anatomy
+/// A loop whose limbs pass each other at `apart_mm` from axis to axis.
+Plan loop(double apart_mm) {
+  Plan plan;
+  std::vector<Vector3d> through{{0, 0, 0}};
+  for (const double share : {0.25, 0.5, 0.75, 1.0})
+    through.emplace_back(15.0 * sine(2.0 * std::numbers::pi * share),
+                         15.0 - 15.0 * cosine(2.0 * std::numbers::pi * share), apart_mm * share);
+  add_trunk(plan, "loop", {{-30, 0, 0}, Vector3d::UnitX(), Vector3d::Zero()}, through,
+            {{30, 0, apart_mm}, Vector3d::UnitX(), Vector3d::Zero()});
+  set_calibre(plan, 0, {{0.0, 3.0}});
+  return plan;
+}
+
+TEST(Plan, AVesselThatTouchesItselfHasNoMesh) {
+  EXPECT_FALSE(mesh_of(loop(4.0), false).has_value());
+  EXPECT_FALSE(mesh_of(loop(4.0), true).has_value());
+  const std::optional<TriangleMesh> apart = mesh_of(loop(9.0), false);
+  ASSERT_TRUE(apart.has_value());
+  EXPECT_EQ(test::facts_of(*apart).euler, 2);
+}
+
