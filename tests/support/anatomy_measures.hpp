@@ -1,12 +1,15 @@
 #pragma once
 
+#include <optional>
+
 #include "support/measured_vessel.hpp"
 
 namespace endowire::test {
 
 // How every parameter of every anatomy is measured back.
 
-using Measure = std::function<double(const MeasuredVessel&)>;
+/// Nothing where the vessel has no such thing.
+using Measure = std::function<std::optional<double>(const MeasuredVessel&)>;
 using Measures = std::map<std::string, Measure>;
 
 inline Measure diameter_at(const char* mark) {
@@ -30,11 +33,6 @@ inline Measure carina_of(const char* branch, const char* parameter) {
 inline Measure from_parent(const char* branch, const char* mark) {
   return [branch, mark](const MeasuredVessel& v) {
     return std::abs(v.branch(branch).parent_arc_mm - v.arc(mark));
-  };
-}
-inline Measure between_ostia(const char* one, const char* other) {
-  return [one, other](const MeasuredVessel& v) {
-    return std::abs(v.branch(one).parent_arc_mm - v.branch(other).parent_arc_mm);
   };
 }
 
@@ -93,9 +91,10 @@ inline Measures arch_measures() {
   };
   m["brachiocephalic_take_off_deg"] = take_off_of(trunk);
   m["left_carotid_take_off_deg"] =
-      [=](const MeasuredVessel& v) {  // of the arch; a bovine one leaves the trunk
-        return v.branch(carotid).parent == 0 ? v.take_off_deg(carotid) : std::nan("");
-      };
+      [=](const MeasuredVessel& v) -> std::optional<double> {  // of the arch; a bovine one leaves the trunk
+    if (v.branch(carotid).parent != 0) return std::nullopt;
+    return v.take_off_deg(carotid);
+  };
   m["left_subclavian_take_off_deg"] = take_off_of(subclavian);
   m["brachiocephalic_to_carotid_mm"] = from_parent(trunk, "arch");
   m["carotid_to_subclavian_mm"] = from_parent(subclavian, "arch");

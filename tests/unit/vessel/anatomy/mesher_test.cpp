@@ -131,6 +131,14 @@ TEST(Remesh, FinerSizesGiveMoreTrianglesAndLessError) {
   const TriangleMesh usual = remesh(contour(shape, 1.7), shape, {}, {});
   const TriangleMesh finer = remesh(contour(shape, 1.7), shape, {}, fine);
   EXPECT_GT(finer.triangles.size(), 2 * usual.triangles.size());
+  const auto mean_error_mm = [&](const TriangleMesh& mesh) {
+    double sum = 0.0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      sum +=
+          std::abs(shape.at((mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0).distance_mm);
+    return sum / static_cast<double>(mesh.triangles.size());
+  };
+  EXPECT_LT(mean_error_mm(finer), 0.6 * mean_error_mm(usual));
   EXPECT_GT(test::facts_of(finer).least_angle_deg, 20.0);
 }
 
@@ -161,8 +169,6 @@ TEST(Cut, OpensAVesselAlongACircle) {
   EXPECT_GT(on_rim, 30);
 }
 
-}  // namespace
-}  // namespace endowire::vessel::anatomy
 /// A loop whose limbs pass each other at `apart_mm` from axis to axis.
 Plan loop(double apart_mm) {
   Plan plan;
@@ -184,3 +190,5 @@ TEST(Plan, AVesselThatTouchesItselfHasNoMesh) {
   EXPECT_EQ(test::facts_of(*apart).euler, 2);
 }
 
+}  // namespace
+}  // namespace endowire::vessel::anatomy
