@@ -20,7 +20,8 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
-#include <vtkXMLPolyDataWriter.h>
+
+#include "endowire/io/vtk_poly_data.hpp"
 #endif
 
 namespace endowire::io {
@@ -122,28 +123,6 @@ json centrelines_json(const CentrelineTree& tree) {
 
 #ifdef ENDOWIRE_WITH_VTK
 
-namespace {
-
-template <class Value>
-void add_doubles(vtkDataSetAttributes& data, const char* name, std::size_t count, Value value) {
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(count));
-  for (std::size_t i = 0; i < count; ++i) array->SetValue(static_cast<vtkIdType>(i), value(i));
-  data.AddArray(array);
-}
-
-template <class Value>
-void add_integers(vtkDataSetAttributes& data, const char* name, std::size_t count, Value value) {
-  vtkNew<vtkIntArray> array;
-  array->SetName(name);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(count));
-  for (std::size_t i = 0; i < count; ++i) array->SetValue(static_cast<vtkIdType>(i), value(i));
-  data.AddArray(array);
-}
-
-}  // namespace
-
 void write_centrelines_vtp(const fs::path& path, const CentrelineTree& tree) {
   const std::vector<CentrelinePoint>& all = tree.points();
   const std::vector<CentrelineBranch>& branches = tree.branches();
@@ -165,34 +144,29 @@ void write_centrelines_vtp(const fs::path& path, const CentrelineTree& tree) {
   poly->SetPoints(points);
   poly->SetLines(lines);
   vtkPointData& at = *poly->GetPointData();
-  add_doubles(at, "radius_mm", all.size(), [&](std::size_t i) { return all[i].radius_mm; });
-  add_doubles(at, "arc_mm", all.size(), [&](std::size_t i) { return all[i].arc_mm; });
-  add_doubles(at, "from_root_mm", all.size(), [&](std::size_t i) {
+  add_array<vtkDoubleArray>(at, "radius_mm", all.size(), [&](std::size_t i) { return all[i].radius_mm; });
+  add_array<vtkDoubleArray>(at, "arc_mm", all.size(), [&](std::size_t i) { return all[i].arc_mm; });
+  add_array<vtkDoubleArray>(at, "from_root_mm", all.size(), [&](std::size_t i) {
     return branches[static_cast<std::size_t>(branch_of[i])].from_root_mm + all[i].arc_mm;
   });
-  add_doubles(at, "curvature_per_mm", all.size(),
-              [&](std::size_t i) { return all[i].curvature_per_mm.norm(); });
-  add_integers(at, "branch", all.size(), [&](std::size_t i) { return branch_of[i]; });
+  add_array<vtkDoubleArray>(at, "curvature_per_mm", all.size(),
+                            [&](std::size_t i) { return all[i].curvature_per_mm.norm(); });
+  add_array<vtkIntArray>(at, "branch", all.size(), [&](std::size_t i) { return branch_of[i]; });
   vtkCellData& of = *poly->GetCellData();
-  add_integers(of, "branch", branches.size(), [&](std::size_t b) { return static_cast<int>(b); });
-  add_integers(of, "parent", branches.size(), [&](std::size_t b) { return branches[b].parent; });
-  add_doubles(of, "ostium_arc_mm", branches.size(), [&](std::size_t b) { return branches[b].ostium_arc_mm; });
-  add_doubles(of, "length_mm", branches.size(), [&](std::size_t b) { return branches[b].length_mm; });
-  add_doubles(of, "mean_radius_mm", branches.size(),
-              [&](std::size_t b) { return branches[b].mean_radius_mm; });
+  add_array<vtkIntArray>(of, "branch", branches.size(), [&](std::size_t b) { return static_cast<int>(b); });
+  add_array<vtkIntArray>(of, "parent", branches.size(), [&](std::size_t b) { return branches[b].parent; });
+  add_array<vtkDoubleArray>(of, "ostium_arc_mm", branches.size(),
+                            [&](std::size_t b) { return branches[b].ostium_arc_mm; });
+  add_array<vtkDoubleArray>(of, "length_mm", branches.size(),
+                            [&](std::size_t b) { return branches[b].length_mm; });
+  add_array<vtkDoubleArray>(of, "mean_radius_mm", branches.size(),
+                            [&](std::size_t b) { return branches[b].mean_radius_mm; });
   vtkNew<vtkStringArray> names;
   names->SetName("branch_name");
   for (const CentrelineBranch& b : branches) names->InsertNextValue(b.name);
   poly->GetFieldData()->AddArray(names);
 
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetInputData(poly);
-  writer->SetDataModeToAppended();
-  writer->SetEncodeAppendedData(false);
-  writer->SetCompressorTypeToNone();
-  writer->SetWriteToOutputString(true);
-  writer->Write();
-  write_file_atomically(path, writer->GetOutputString());
+  write_vtp(path, *poly);
 }
 
 #else

@@ -13,7 +13,8 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkXMLPolyDataWriter.h>
+
+#include "endowire/io/vtk_poly_data.hpp"
 #endif
 
 namespace endowire::io {
@@ -23,23 +24,6 @@ using base::InputError;
 #ifdef ENDOWIRE_WITH_VTK
 
 namespace {
-
-template <class Value>
-void add_points(vtkPolyData& poly, const char* name, const sim::Snapshot& snapshot, Value value) {
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(snapshot.points.size()));
-  for (std::size_t i = 0; i < snapshot.points.size(); ++i)
-    array->SetValue(static_cast<vtkIdType>(i), value(snapshot.points[i]));
-  poly.GetPointData()->AddArray(array);
-}
-
-void add_field(vtkPolyData& poly, const char* name, double value) {
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  poly.GetFieldData()->AddArray(array);
-}
 
 void add_field(vtkPolyData& poly, const char* name, const Eigen::Vector3d& value) {
   vtkNew<vtkDoubleArray> array;
@@ -77,29 +61,27 @@ void write_wire_vtp(const std::filesystem::path& path, const sim::Snapshot& snap
   vtkNew<vtkPolyData> poly;
   poly->SetPoints(points);
   poly->SetLines(lines);
-  add_points(*poly, "arc_mm", snapshot, [](const Point& point) { return point.arc_mm; });
-  add_points(*poly, "radius_mm", snapshot, [](const Point& point) { return point.radius_mm; });
-  add_points(*poly, "curvature_per_mm", snapshot, [](const Point& point) { return point.curvature_per_mm; });
-  add_points(*poly, "twist_rad", snapshot, [](const Point& point) { return point.twist_rad; });
-  add_points(*poly, "wall_force_n_per_mm", snapshot,
-             [](const Point& point) { return point.wall_force_n_per_mm; });
-  add_points(*poly, "friction_n_per_mm", snapshot,
-             [](const Point& point) { return point.friction_n_per_mm; });
+  const auto add_points = [&](const char* name, auto value) {
+    add_array<vtkDoubleArray>(*poly->GetPointData(), name, snapshot.points.size(),
+                              [&](std::size_t i) { return value(snapshot.points[i]); });
+  };
+  const auto add_value = [&](const char* name, double value) {
+    add_array<vtkDoubleArray>(*poly->GetFieldData(), name, 1, [&](std::size_t /*i*/) { return value; });
+  };
+  add_points("arc_mm", [](const Point& point) { return point.arc_mm; });
+  add_points("radius_mm", [](const Point& point) { return point.radius_mm; });
+  add_points("curvature_per_mm", [](const Point& point) { return point.curvature_per_mm; });
+  add_points("twist_rad", [](const Point& point) { return point.twist_rad; });
+  add_points("wall_force_n_per_mm", [](const Point& point) { return point.wall_force_n_per_mm; });
+  add_points("friction_n_per_mm", [](const Point& point) { return point.friction_n_per_mm; });
   poly->GetPointData()->AddArray(directions);
-  add_field(*poly, "inserted_length_mm", snapshot.inserted_length_mm);
-  add_field(*poly, "push_force_n", snapshot.push_force_n);
-  add_field(*poly, "torque_n_mm", snapshot.torque_n_mm);
+  add_value("inserted_length_mm", snapshot.inserted_length_mm);
+  add_value("push_force_n", snapshot.push_force_n);
+  add_value("torque_n_mm", snapshot.torque_n_mm);
   add_field(*poly, "access_position_mm", access.position_mm);
   add_field(*poly, "access_direction", access.direction);
 
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetInputData(poly);
-  writer->SetDataModeToAppended();
-  writer->SetEncodeAppendedData(false);
-  writer->SetCompressorTypeToNone();
-  writer->SetWriteToOutputString(true);
-  writer->Write();
-  write_file_atomically(path, writer->GetOutputString());
+  write_vtp(path, *poly);
 }
 
 #else
