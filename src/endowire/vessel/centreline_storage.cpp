@@ -1,4 +1,5 @@
 #include <cmath>
+#include <concepts>
 
 #include "endowire/vessel/centreline_tree.hpp"
 #include "endowire/vessel/storage.hpp"
@@ -11,117 +12,94 @@ using Index = std::int32_t;
 constexpr StorageKind prepared_tree{0x4552544552495745ULL, 1, "prepared centreline tree"};  // "EWIRETRE"
 constexpr std::size_t max_name = 4096;  // bytes; a name grows by a number per generation
 
-void put(StorageWriter& w, const std::string& text) {
-  w.values(std::vector<char>(text.begin(), text.end()));
+template <class T, class Record>
+concept Of = std::same_as<std::remove_const_t<T>, Record>;
+
+// The members of each record, in the order of the file: `file` writes them or reads them.
+
+void members(auto& file, Of<CentrelineBranch> auto& b) {
+  file(b.name, b.vessel, b.parent, b.from_bifurcation, b.to_bifurcation, b.children, b.first_point, b.points,
+       b.from_root_mm, b.length_mm, b.tortuosity, b.ostium_arc_mm, b.cap_mm, b.min_radius_mm,
+       b.mean_radius_mm, b.max_radius_mm);
 }
 
-std::string get_text(StorageReader& r) {
-  const std::vector<char> text = r.values<char>();
-  if (text.size() > max_name) r.fail("a name is absurdly long");
-  return {text.begin(), text.end()};
+void members(auto& file, Of<CentrelinePoint> auto& p) {
+  file(p.position_mm, p.radius_mm, p.arc_mm, p.tangent, p.curvature_per_mm);
 }
 
-void put(StorageWriter& w, const CentrelineBranch& b) {
-  put(w, b.name);
-  put(w, b.vessel);
-  for (Index v : {b.parent, b.from_bifurcation, b.to_bifurcation}) w.value(v);
-  w.values(b.children);
-  for (std::size_t v : {b.first_point, b.points}) w.value(static_cast<std::uint64_t>(v));
-  for (double v : {b.from_root_mm, b.length_mm, b.tortuosity, b.ostium_arc_mm, b.cap_mm, b.min_radius_mm,
-                   b.mean_radius_mm, b.max_radius_mm})
-    w.value(v);
+void members(auto& file, Of<CentrelineBifurcation> auto& b) {
+  file(b.position_mm, b.radius_mm, b.parent, b.children);
 }
 
-CentrelineBranch get_branch(StorageReader& r) {
-  CentrelineBranch b;
-  b.name = get_text(r);
-  b.vessel = get_text(r);
-  for (Index* v : {&b.parent, &b.from_bifurcation, &b.to_bifurcation}) *v = r.value<Index>();
-  b.children = r.values<Index>();
-  b.first_point = static_cast<std::size_t>(r.value<std::uint64_t>());
-  b.points = static_cast<std::size_t>(r.value<std::uint64_t>());
-  for (double* v : {&b.from_root_mm, &b.length_mm, &b.tortuosity, &b.ostium_arc_mm, &b.cap_mm,
-                    &b.min_radius_mm, &b.mean_radius_mm, &b.max_radius_mm})
-    *v = r.value<double>();
-  return b;
+void members(auto& file, Of<CentrelineEnd> auto& e) {
+  file(e.kind, e.root, e.opening, e.branch, e.position_mm, e.direction, e.radius_mm, e.rejoins,
+       e.rejoins_arc_mm);
 }
 
-void put(StorageWriter& w, const CentrelinePoint& p) {
-  w.vector(p.position_mm);
-  w.value(p.radius_mm);
-  w.value(p.arc_mm);
-  w.vector(p.tangent);
-  w.vector(p.curvature_per_mm);
-}
+class Writing {
+ public:
+  explicit Writing(StorageWriter& w) : w_(w) {}
+  template <class... Members>
+  void operator()(const Members&... all) {
+    (put(all), ...);
+  }
 
-CentrelinePoint get_point(StorageReader& r) {
-  CentrelinePoint p;
-  p.position_mm = r.vector();
-  p.radius_mm = r.value<double>();
-  p.arc_mm = r.value<double>();
-  p.tangent = r.vector();
-  p.curvature_per_mm = r.vector();
-  return p;
-}
+ private:
+  void put(double v) { w_.value(v); }
+  void put(Index v) { w_.value(v); }
+  void put(std::size_t v) { w_.value(static_cast<std::uint64_t>(v)); }
+  void put(bool v) { w_.value(static_cast<std::uint8_t>(v ? 1 : 0)); }
+  void put(CentrelineEndKind v) { w_.value(static_cast<std::uint8_t>(v)); }
+  void put(const Eigen::Vector3d& v) { w_.vector(v); }
+  void put(const std::vector<Index>& v) { w_.values(v); }
+  void put(const std::string& v) { w_.values(std::vector<char>(v.begin(), v.end())); }
 
-void put(StorageWriter& w, const CentrelineEnd& e) {
-  w.value(static_cast<std::uint8_t>(e.kind));
-  w.value(static_cast<std::uint8_t>(e.root ? 1 : 0));
-  w.value(static_cast<std::int32_t>(e.opening));
-  w.value(e.branch);
-  w.vector(e.position_mm);
-  w.vector(e.direction);
-  w.value(e.radius_mm);
-  w.value(e.rejoins);
-  w.value(e.rejoins_arc_mm);
-}
+  StorageWriter& w_;
+};
 
-CentrelineEnd get_end(StorageReader& r) {
-  CentrelineEnd e;
-  const auto kind = r.value<std::uint8_t>();
-  if (kind > static_cast<std::uint8_t>(CentrelineEndKind::cut)) r.fail("an end is of no known kind");
-  e.kind = static_cast<CentrelineEndKind>(kind);
-  e.root = r.value<std::uint8_t>() != 0;
-  e.opening = r.value<std::int32_t>();
-  e.branch = r.value<Index>();
-  e.position_mm = r.vector();
-  e.direction = r.vector();
-  e.radius_mm = r.value<double>();
-  e.rejoins = r.value<Index>();
-  e.rejoins_arc_mm = r.value<double>();
-  return e;
-}
+class Reading {
+ public:
+  explicit Reading(StorageReader& r) : r_(r) {}
+  template <class... Members>
+  void operator()(Members&... all) {
+    (get(all), ...);
+  }
 
-void put(StorageWriter& w, const CentrelineBifurcation& b) {
-  w.vector(b.position_mm);
-  w.value(b.radius_mm);
-  w.value(b.parent);
-  w.values(b.children);
-}
+ private:
+  void get(double& v) { v = r_.value<double>(); }
+  void get(Index& v) { v = r_.value<Index>(); }
+  void get(std::size_t& v) { v = static_cast<std::size_t>(r_.value<std::uint64_t>()); }
+  void get(bool& v) { v = r_.value<std::uint8_t>() != 0; }
+  void get(CentrelineEndKind& v) {
+    const auto kind = r_.value<std::uint8_t>();
+    if (kind > static_cast<std::uint8_t>(CentrelineEndKind::cut)) r_.fail("an end is of no known kind");
+    v = static_cast<CentrelineEndKind>(kind);
+  }
+  void get(Eigen::Vector3d& v) { v = r_.vector(); }
+  void get(std::vector<Index>& v) { v = r_.values<Index>(); }
+  void get(std::string& v) {
+    const std::vector<char> text = r_.values<char>();
+    if (text.size() > max_name) r_.fail("a name is absurdly long");
+    v.assign(text.begin(), text.end());
+  }
 
-CentrelineBifurcation get_bifurcation(StorageReader& r) {
-  CentrelineBifurcation b;
-  b.position_mm = r.vector();
-  b.radius_mm = r.value<double>();
-  b.parent = r.value<Index>();
-  b.children = r.values<Index>();
-  return b;
-}
+  StorageReader& r_;
+};
 
 /// Arrays of records, their count first; an element takes at least `bytes`.
-template <typename T, typename Get>
-std::vector<T> get_all(StorageReader& r, std::size_t bytes, Get get) {
-  const std::size_t count = r.size_of_array(bytes);
-  std::vector<T> all;
-  all.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) all.push_back(get(r));
+template <typename T>
+std::vector<T> get_all(StorageReader& r, std::size_t bytes) {
+  std::vector<T> all(r.size_of_array(bytes));
+  Reading reading(r);
+  for (T& one : all) members(reading, one);
   return all;
 }
 
 template <typename T>
 void put_all(StorageWriter& w, const std::vector<T>& all) {
   w.value(static_cast<std::uint64_t>(all.size()));
-  for (const T& one : all) put(w, one);
+  Writing writing(w);
+  for (const T& one : all) members(writing, one);
 }
 
 }  // namespace
@@ -139,10 +117,10 @@ std::vector<std::byte> CentrelineTree::serialise(std::uint64_t key) const {
 CentrelineTree CentrelineTree::deserialise(std::span<const std::byte> bytes, std::uint64_t expected_key,
                                            const std::string& label) {
   StorageReader r(bytes, prepared_tree, expected_key, label);
-  auto branches = get_all<CentrelineBranch>(r, 100, get_branch);
-  auto points = get_all<CentrelinePoint>(r, 88, get_point);
-  auto bifurcations = get_all<CentrelineBifurcation>(r, 44, get_bifurcation);
-  auto ends = get_all<CentrelineEnd>(r, 78, get_end);
+  auto branches = get_all<CentrelineBranch>(r, 100);
+  auto points = get_all<CentrelinePoint>(r, 88);
+  auto bifurcations = get_all<CentrelineBifurcation>(r, 44);
+  auto ends = get_all<CentrelineEnd>(r, 78);
   r.expect_end();
   return {std::move(branches), std::move(points), std::move(bifurcations), std::move(ends), label};
 }
