@@ -266,10 +266,7 @@ Plan aortic_arch(const Values& v) {
   add_left_subclavian(plan, v, arch);
   const std::size_t left =
       add_pelvis(plan, v, marks, iliac_course(v, Side::left), iliac_end_direction(Side::left));
-  add_end(plan, "right external iliac end", 0);
-  add_end(plan, "left external iliac end", left);
-  plan.access = {"access", 0, plan.branches[0].axis.length_mm() - v["sheath_depth_mm"]};
-  plan.access_backward = true;
+  end_in_groins(plan, v, left);
   return plan;
 }
 

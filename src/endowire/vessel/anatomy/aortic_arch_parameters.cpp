@@ -43,9 +43,7 @@ std::span<const Parameter> aortic_arch_parameters() {
                 "isthmus, 25 mm behind the left subclavian", "Hager2002: 24.7 +- 4.0"},
       Parameter{"diaphragm_diameter_mm", "mm", 24.3, 17.3, 31.3, false, calibre, "aorta at the diaphragm",
                 "Hager2002: 24.3 +- 3.5"},
-      Parameter{"infrarenal_diameter_mm", "mm", 17.0, 13.0, 21.0, false, calibre,
-                "aorta below the renal arteries",
-                "Kim2022: 17.5 +- 2.1; Jasper2014: 13.8 (men); Joh2013: 19.0 (men)"},
+      infrarenal_diameter,
       Parameter{"ascending_length_mm", "mm", 62.6, 45, 85, false, stature,
                 "sinotubular junction to brachiocephalic ostium", "Chiu2013: 62.6 +- 11.4"},
       Parameter{"descending_thoracic_length_mm", "mm", 205, 175, 250, false, stature,
@@ -79,9 +77,7 @@ std::span<const Parameter> aortic_arch_parameters() {
       Parameter{"trunk_carina_radius_mm", "mm", 1.2, 0.8, 2.0, false, own,
                 "of the division of the brachiocephalic trunk",
                 "estimate, unreported: narrower than at the ostia"},
-      Parameter{"sheath_depth_mm", "mm", 40, 10, 60, false, own,
-                "of the access in the right external iliac, from its end",
-                "estimate: a sheath of 110 mm from the groin"},
+      sheath_depth,
   };
   static constexpr auto table = joined(own_table, iliac_parameters);
   return table;

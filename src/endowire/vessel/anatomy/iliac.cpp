@@ -19,11 +19,6 @@ const Vector3d groin(0.34, -0.50, -0.80);
 const Vector3d sacrum(-0.35, 0.90, -0.10);
 constexpr double internal_take_off_deg = 45.0;
 
-Vector3d on_side(Vector3d left, Side side) {
-  if (side == Side::right) left.x() = -left.x();
-  return left;
-}
-
 Vector3d common_direction(const Values& values, Side side) {
   const double half = 0.5 * radians(values["aortic_bifurcation_deg"]);
   const double back = radians(backward_deg);
@@ -63,6 +58,11 @@ void add_internal(Plan& plan, const Values& values, std::size_t parent, Side sid
 }
 
 }  // namespace
+
+Vector3d on_side(Vector3d left, Side side) {
+  if (side == Side::right) left.x() = -left.x();
+  return left;
+}
 
 std::vector<Vector3d> iliac_course(const Values& values, Side side) {
   const Vector3d along = common_direction(values, side);
@@ -118,6 +118,13 @@ std::size_t add_pelvis(Plan& plan, const Values& values, const Marks& above,
   add_landmark(plan, "right common iliac", 0, 0.5 * (bifurcation + 12.0 + division));
   add_landmark(plan, "right external iliac", 0, division + 0.5 * values["external_iliac_length_mm"]);
   return left;
+}
+
+void end_in_groins(Plan& plan, const Values& values, std::size_t left) {
+  add_end(plan, "right external iliac end", 0);
+  add_end(plan, "left external iliac end", left);
+  plan.access = {"access", 0, plan.branches[0].axis.length_mm() - values["sheath_depth_mm"]};
+  plan.access_backward = true;
 }
 
 }  // namespace endowire::vessel::anatomy

@@ -13,6 +13,9 @@ namespace endowire::vessel::anatomy {
 
 enum class Side : std::uint8_t { right, left };
 
+/// What is drawn for the left side, on either.
+[[nodiscard]] Eigen::Vector3d on_side(Eigen::Vector3d left, Side side);
+
 /// Above this height the aorta is undivided.
 inline constexpr double division_mm = 18.0;
 
@@ -36,5 +39,9 @@ inline constexpr double division_mm = 18.0;
 std::size_t add_pelvis(Plan& plan, const Values& values, const std::vector<RadiusProfile::Mark>& above,
                        const std::vector<Eigen::Vector3d>& left_course,
                        const Eigen::Vector3d& left_end_direction);
+
+/// Where vessels end in the groins: names both ends and puts the access into the right one.
+/// @param left  index of the left iliac arteries
+void end_in_groins(Plan& plan, const Values& values, std::size_t left);
 
 }  // namespace endowire::vessel::anatomy

@@ -6,6 +6,29 @@
 
 namespace endowire::vessel::anatomy {
 
+/// Above the pelvis, in every anatomy with a femoral access.
+inline constexpr Parameter infrarenal_diameter{
+    "infrarenal_diameter_mm",
+    "mm",
+    17.0,
+    13.0,
+    21.0,
+    false,
+    Trait::calibre,
+    "aorta below the renal arteries",
+    "Kim2022: 17.5 +- 2.1; Jasper2014: 13.8 (men); Joh2013: 19.0 (men)"};
+
+/// Of the access, where vessels end in the groins.
+inline constexpr Parameter sheath_depth{"sheath_depth_mm",
+                                        "mm",
+                                        40,
+                                        10,
+                                        60,
+                                        false,
+                                        Trait::own,
+                                        "of the access in the right external iliac, from its end",
+                                        "estimate: a sheath of 110 mm from the groin"};
+
 /// Of the pelvis, in every anatomy with a femoral access; see iliac.hpp.
 inline constexpr std::array iliac_parameters{
     Parameter{"aortic_bifurcation_deg", "deg", 50, 25, 61, false, Trait::own,

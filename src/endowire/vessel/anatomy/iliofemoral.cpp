@@ -20,11 +20,6 @@ const Vector3d thigh_below(-0.10, 0.08, -0.99);
 const Vector3d deep(0.45, 0.85, 0.0);
 constexpr double deep_take_off_deg = 35.0;
 
-Vector3d on_side(Vector3d left, Side side) {
-  if (side == Side::right) left.x() = -left.x();
-  return left;
-}
-
 /// From the division of the aorta to the end of the superficial femoral artery.
 std::vector<Vector3d> leg_course(const Values& v, Side side) {
   std::vector<Vector3d> course = iliac_course(v, side);
@@ -139,9 +134,7 @@ std::string iliofemoral_conflict(const Values& v) {
 std::span<const Parameter> iliofemoral_parameters() {
   using enum Trait;
   static constexpr std::array own_table{
-      Parameter{"infrarenal_diameter_mm", "mm", 17.0, 13.0, 21.0, false, calibre,
-                "aorta below the renal arteries",
-                "Kim2022: 17.5 +- 2.1; Jasper2014: 13.8 (men); Joh2013: 19.0 (men)"},
+      infrarenal_diameter,
       Parameter{"infrarenal_length_mm", "mm", 80, 60, 110, false, stature,
                 "aorta above its bifurcation, as far as it is modelled",
                 "estimate: below the renal arteries"},

@@ -112,10 +112,7 @@ Plan renal(const Values& v) {
   add_renal(plan, v, 1.0, level);
   const std::size_t left =
       add_pelvis(plan, v, marks, iliac_course(v, Side::left), iliac_end_direction(Side::left));
-  add_end(plan, "right external iliac end", 0);
-  add_end(plan, "left external iliac end", left);
-  plan.access = {"access", 0, plan.branches[0].axis.length_mm() - v["sheath_depth_mm"]};
-  plan.access_backward = true;
+  end_in_groins(plan, v, left);
   plan.route_end_arc_mm = axis.nearest_arc_mm({0.0, 0.0, level});
   return plan;
 }
@@ -136,8 +133,7 @@ std::span<const Parameter> renal_parameters() {
       Parameter{"suprarenal_diameter_mm", "mm", 19.5, 14.5, 24.0, false, calibre,
                 "aorta above the renal arteries",
                 "Jasper2014: 19.0 +- 2.3 (men, India); Joh2013: 22.0 (men, Korea)"},
-      Parameter{"infrarenal_diameter_mm", "mm", 17.0, 13.0, 21.0, false, calibre, "aorta below them",
-                "Kim2022: 17.5 +- 2.1; Jasper2014: 13.8 (men); Joh2013: 19.0 (men)"},
+      infrarenal_diameter,
       Parameter{"infrarenal_length_mm", "mm", 92, 75, 115, false, stature,
                 "left renal ostium to aortic bifurcation",
                 "estimate: from the second lumbar vertebra to the fourth"},
@@ -165,9 +161,7 @@ std::span<const Parameter> renal_parameters() {
                 "estimate, unreported: a third to a half of the branch's radius"},
       Parameter{"hilar_carina_radius_mm", "mm", 0.9, 0.6, 1.4, false, own,
                 "of the division of a renal artery", "estimate, unreported: half the branch's radius"},
-      Parameter{"sheath_depth_mm", "mm", 40, 10, 60, false, own,
-                "of the access in the right external iliac, from its end",
-                "estimate: a sheath of 110 mm from the groin"},
+      sheath_depth,
   };
   static constexpr auto table = joined(own_table, iliac_parameters);
   return table;
