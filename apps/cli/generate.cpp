@@ -32,22 +32,15 @@ struct Options {
   bool open_ends = false;
 };
 
+constexpr const char* name_field = "generate: NAME";
+
 void print_generators() {
   for (const vessel::Generator& generator : vessel::generators())
     fmt::print("{:<16} {}\n", generator.name, generator.meaning);
 }
 
-vessel::Generator generator_of(const std::string& name) {
-  std::string known;
-  for (const vessel::Generator& generator : vessel::generators()) {
-    if (generator.name == name) return generator;
-    known += (known.empty() ? "" : ", ") + generator.name;
-  }
-  throw base::InputError(fmt::format("generate: NAME is \"{}\"; must be one of {}", name, known));
-}
-
 void print_parameters(const std::string& name) {
-  const vessel::Generator generator = generator_of(name);
+  const vessel::Generator generator = vessel::generator_named(name, name_field);
   fmt::print("{}: {}\n\n", generator.name, generator.meaning);
   for (const vessel::anatomy::Parameter& p : generator.parameters) {
     fmt::print("{:<34} {:>6} {:<4} {:>6} to {:<6}  {}\n", p.name, p.usual, p.unit, p.low, p.high, p.meaning);
@@ -100,7 +93,8 @@ void add_lesions(vessel::GenerateRequest& request, LesionRequest::Kind kind, con
 
 vessel::GenerateRequest request_of(const Options& options) {
   vessel::GenerateRequest request;
-  request.name = generator_of(options.name).name;
+  request.name = options.name;
+  request.generator_field = name_field;
   if (options.seed_given->count() > 0) request.seed = options.seed;
   request.settings = settings_of(options.settings);
   request.open_ends = options.open_ends;

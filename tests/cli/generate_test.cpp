@@ -76,8 +76,9 @@ TEST(Generate, RefusesInOneLineWhatItCannotMake) {
   EXPECT_EQ(refusal({}), "generate: NAME is missing; `generate --list` names them\n");
   EXPECT_EQ(refusal({"aortic_arch"}), "generate: --out is missing; must be the path of an STL file\n");
   EXPECT_EQ(refusal({"heart", "--out", "v.stl"}),
-            "generate: NAME is \"heart\"; must be one of aortic_arch, iliofemoral, renal, coronary, "
-            "carotid_siphon\n");
+            "generate: NAME is \"heart\"; must be one of \"aortic_arch\", \"iliofemoral\", \"renal\", "
+            "\"coronary\", "
+            "\"carotid_siphon\"\n");
   EXPECT_EQ(refusal(with("--set", "arch_type")), "--set is \"arch_type\"; must be name=value\n");
   EXPECT_EQ(refusal(with("--set", "arch_type=two")), "--set arch_type is \"two\"; must be a number\n");
   EXPECT_EQ(refusal(with("--set", "arch_type=4")),

@@ -49,13 +49,13 @@ constexpr std::array recipes{
            anatomy::carotid_siphon},
 };
 
-const Recipe& recipe_of(const GenerateRequest& request) {
+const Recipe& recipe_of(const std::string& name, const std::string& field) {
   std::string known;
   for (const Recipe& recipe : recipes) {
-    if (request.name == recipe.name) return recipe;
+    if (name == recipe.name) return recipe;
     known += std::string(known.empty() ? "" : ", ") + '"' + recipe.name + '"';
   }
-  throw base::InputError(request.generator_field + " is \"" + request.name + "\"; must be one of " + known);
+  throw base::InputError(field + " is \"" + name + "\"; must be one of " + known);
 }
 
 /// Why these numbers give no vessel, as a whole message; empty when they give `plan`.
@@ -99,17 +99,25 @@ void describe(GeneratedVessel& vessel, const Plan& plan, const Values& values) {
     vessel.parameters.push_back({values.table()[i].name, values.numbers()[i]});
 }
 
+Generator generator_of(const Recipe& recipe) {
+  return {recipe.name, recipe.meaning, recipe.parameters()};
+}
+
 }  // namespace
 
 std::vector<Generator> generators() {
   std::vector<Generator> all;
   all.reserve(recipes.size());
-  for (const Recipe& recipe : recipes) all.push_back({recipe.name, recipe.meaning, recipe.parameters()});
+  for (const Recipe& recipe : recipes) all.push_back(generator_of(recipe));
   return all;
 }
 
+Generator generator_named(const std::string& name, const std::string& field) {
+  return generator_of(recipe_of(name, field));
+}
+
 GeneratedVessel generate(const GenerateRequest& request) {
-  const Recipe& recipe = recipe_of(request);
+  const Recipe& recipe = recipe_of(request.name, request.generator_field);
   Plan plan;
   const Values values = values_of(recipe, request, plan);
   apply_lesions(plan, request.lesions, request.stenosis_field, request.aneurysm_field);

@@ -25,6 +25,11 @@ struct Generator {
 /// All of them.
 [[nodiscard]] std::vector<Generator> generators();
 
+/// One of them.
+/// @param field  begins the message
+/// @throws base::InputError `field` is "heart"; must be one of …
+[[nodiscard]] Generator generator_named(const std::string& name, const std::string& field);
+
 /// What to make.
 struct GenerateRequest {
   std::string name;
