@@ -4,6 +4,7 @@
 #include <queue>
 
 #include "endowire/base/contract.hpp"
+#include "endowire/vessel/field_probes.hpp"
 #include "endowire/vessel/hash.hpp"
 #include "endowire/vessel/lumen.hpp"
 #include "endowire/vessel/mesh_field.hpp"
@@ -403,52 +404,19 @@ class MeshFieldBuilder {
 
   // --- measurement
 
-  struct Probe {
-    Vector3d point_mm;
-    double error_mm;
-  };
-
-  /// Random points near the vessel's own wall, by area, and how far the field misses there.
-  template <typename Visit>
-  void probe_near_wall(std::size_t count, std::uint64_t seed, Visit visit) {
-    std::vector<double> cumulative(closed_.wall_triangles);
-    double sum = 0.0;
-    for (std::size_t t = 0; t < closed_.wall_triangles; ++t)
-      cumulative[t] = sum += 0.5 * closed_.mesh.area_normal(t).norm();
-    SplitMix random(seed);
-    for (std::size_t n = 0; n < count; ++n) {
-      const auto hit = std::upper_bound(cumulative.begin(), cumulative.end(), random.uniform() * sum);
-      const auto t = static_cast<std::size_t>(std::min(hit, cumulative.end() - 1) - cumulative.begin());
-      double u = random.uniform();
-      double v = random.uniform();
-      if (u + v > 1.0) {
-        u = 1.0 - u;
-        v = 1.0 - v;
-      }
-      const Vector3d on_wall = closed_.mesh.corner(t, 0) +
-                               u * (closed_.mesh.corner(t, 1) - closed_.mesh.corner(t, 0)) +
-                               v * (closed_.mesh.corner(t, 2) - closed_.mesh.corner(t, 0));
-      const double offset = random.uniform(-parameters_.near_mm, parameters_.near_outside_mm);
-      const Vector3d p = on_wall + offset * surface_.normal(t);
-      double exact = surface_.at(p, std::abs(offset) + 1e-6).distance_mm;
-      const double found = field_.at(p).distance_mm;
-      // Where the pseudonormal of a flawed mesh disagrees with the field, the winding number says who is
-      // right.
-      if (exact * found < 0.0 && std::abs(exact - found) > 4.0 * parameters_.error_target_mm)
-        exact = std::copysign(exact, winding_number(closed_.mesh, p) - 0.5);
-      visit(Probe{p, std::abs(found - exact)});
-    }
+  std::vector<FieldProbe> probes(std::size_t count, std::uint64_t seed) const {
+    return probe_near_wall(field_, closed_, surface_, parameters_, count, seed);
   }
 
   /// Finds bricks whose own test points were lucky.
   void scout() {
     if (out_of_memory_) return;
     std::vector<std::pair<std::size_t, double>> missed;
-    probe_near_wall(scout_points, scout_seed, [&](const Probe& probe) {
+    for (const FieldProbe& probe : probes(scout_points, scout_seed)) {
       const double excess = probe.error_mm / parameters_.error_target_mm;
       const MeshField::Reference r = field_.find(probe.point_mm).reference;
       if (excess > 1.0 && !MeshField::is_far(r)) missed.emplace_back(MeshField::index_of(r), excess);
-    });
+    }
     std::sort(missed.begin(), missed.end(), [](const auto& a, const auto& b) {
       return a.first < b.first || (a.first == b.first && a.second > b.second);
     });
@@ -500,30 +468,14 @@ class MeshFieldBuilder {
     }
     std::vector<double> errors;
     errors.reserve(report_points);
-    probe_near_wall(report_points, report_seed,
-                    [&](const Probe& probe) { errors.push_back(probe.error_mm); });
+    for (const FieldProbe& probe : probes(report_points, report_seed)) errors.push_back(probe.error_mm);
     std::sort(errors.begin(), errors.end());
     facts.error_points = errors.size();
     facts.error_p50_mm = errors[errors.size() / 2];
     facts.error_p99_mm = errors[errors.size() * 99 / 100];
     facts.error_max_mm = errors.back();
     facts.refinement_complete = !out_of_memory_ && facts.error_max_mm <= 2.0 * parameters_.error_target_mm;
-
-    std::vector<std::pair<double, double>> diameters;  // and the area of wall that has it
-    double area = 0.0;
-    for (std::size_t t = 0; t < closed_.wall_triangles; ++t) {
-      diameters.emplace_back(2.0 * lumen_.radius_mm[t], 0.5 * closed_.mesh.area_normal(t).norm());
-      area += diameters.back().second;
-    }
-    std::sort(diameters.begin(), diameters.end());
-    constexpr std::array<double, 5> parts{0.05, 0.25, 0.5, 0.75, 0.95};
-    double below = 0.0;
-    std::size_t next = 0;
-    for (const auto& [diameter, weight] : diameters) {
-      below += weight;
-      while (next < parts.size() && below >= parts[next] * area)
-        facts.lumen_diameter_percentiles_mm[next++] = diameter;
-    }
+    facts.lumen_diameter_percentiles_mm = diameter_percentiles_mm(closed_, lumen_);
   }
 
   FieldParameters parameters_;
