@@ -253,9 +253,4 @@ LumenGraph::LumenGraph(const LumenSpace& lumen, double cells_per_radius, std::si
   LumenGraphBuilder(lumen, cells_per_radius, max_nodes, *this).build();
 }
 
-std::size_t LumenGraph::bytes() const {
-  return nodes_.size() * sizeof(Node) + first_link_.size() * sizeof(std::size_t) +
-         links_.size() * sizeof(std::int32_t);
-}
-
 }  // namespace endowire::vessel

@@ -34,7 +34,6 @@ class LumenGraph {
   /// @param max_nodes  cells grow until no more than these are needed
   LumenGraph(const LumenSpace& lumen, double cells_per_radius, std::size_t max_nodes);
 
-  [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
   [[nodiscard]] std::size_t size() const { return nodes_.size(); }
   [[nodiscard]] const Node& operator[](std::int32_t node) const {
     return nodes_[static_cast<std::size_t>(node)];
@@ -43,8 +42,6 @@ class LumenGraph {
     const auto n = static_cast<std::size_t>(node);
     return std::span(links_).subspan(first_link_[n], first_link_[n + 1] - first_link_[n]);
   }
-  /// Bytes held.
-  [[nodiscard]] std::size_t bytes() const;
 
  private:
   friend class LumenGraphBuilder;

@@ -101,13 +101,11 @@ class Splitter {
     line.parent = start.parent_line;
     line.leaves_at = place_on_line_[at(start.fork)];
     line.path_mm.push_back(position(start.fork));
-    line.radius_mm.push_back(radius(start.fork));
     Index p = start.first;
     for (;;) {
       line_of_[at(p)] = index;
       place_on_line_[at(p)] = line.path_mm.size();
       line.path_mm.push_back(position(p));
-      line.radius_mm.push_back(radius(p));
       if (children_[at(p)].empty()) break;
       const Index next = continuation(p, start.fork);
       for (Index child : children_[at(p)])

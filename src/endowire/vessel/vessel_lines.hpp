@@ -15,7 +15,6 @@ struct VesselLine {
   std::int32_t parent = -1;              ///< line it leaves; -1: begins at a root
   std::size_t leaves_at = 0;             ///< point of the parent's path
   std::vector<Eigen::Vector3d> path_mm;  ///< raw, on the ridge; the first is the parent's
-  std::vector<double> radius_mm;         ///< at them
   int opening = 0;                       ///< at its end; 0: closed
   bool cut = false;                      ///< ends where a loop was cut
   std::int32_t rejoins = -1;             ///< the line that the lumen goes on in

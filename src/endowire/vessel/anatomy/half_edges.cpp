@@ -150,7 +150,7 @@ void HalfEdges::collapse(Index h) {
 }
 
 void HalfEdges::flip(Index h) {
-  // (a, b, c) with h = a → b and (b, a, d) with o = b → a become (d, b, c)... written so that h is d → c.
+  // (a, b, c) with h = a → b and (b, a, d) with o = b → a become (d, c, a) with h = d → c and (c, d, b) with o = c → d.
   const Index o = opposite(h);
   const Index a = from(h);
   const Index b = to(h);
@@ -164,22 +164,17 @@ void HalfEdges::flip(Index h) {
   const Index h2 = previous(h);
   const Index o1 = next(o);
   const Index o2 = previous(o);
-  // Triangle of h: d → c → a → d... with h: d → c, h1: c → a, h2: a → d; of o: c → d → b → c.
   corner_[at(h)] = d;
   corner_[at(h1)] = c;
   corner_[at(h2)] = a;
   corner_[at(o)] = c;
   corner_[at(o1)] = d;
   corner_[at(o2)] = b;
-  const auto connect = [&](Index half, Index other) {
-    opposite_[at(half)] = other;
-    if (other != none) opposite_[at(other)] = half;
-  };
-  connect(h1, ca);
-  connect(h2, ad);
-  connect(o1, db);
-  connect(o2, bc);
-  connect(h, o);
+  glue(h1, ca);
+  glue(h2, ad);
+  glue(o1, db);
+  glue(o2, bc);
+  glue(h, o);
   const auto restore = [&](Index v, Index half) {
     const Index old = leaving_[at(v)];
     if (old == h || old == h1 || old == h2 || old == o || old == o1 || old == o2) leaving_[at(v)] = half;
