@@ -142,16 +142,17 @@ Checks insertion_into_a_bend() {
   // A loose tube: the rise is known to the whole percent only, and not over which part of the way. It grows, has a plateau of
   // 10 mm, and falls when the tip comes to the end of the bend.
   struct Loose {
-    double clearance_mm, settled_mm, percent;
+    double clearance_mm, settled_mm, percent, allowed;
   };
-  for (const auto& [clearance_mm, settled_mm, percent] : {Loose{0.25, 20.0, 3.0}, {1.0, 30.0, 12.0}}) {
+  for (const auto& [clearance_mm, settled_mm, percent, allowed] :
+       {Loose{0.25, 20.0, 3.0, 1.0}, {1.0, 30.0, 12.0, 2.0}}) {
     const Push loose = push(clearance_mm, kRod_mm, kStiff_mpa, kLongInlet_mm, settled_mm);
     const std::string clearance = std::to_string(clearance_mm).substr(0, 4);
     checks.push_back({"V11", "work of the hand per length, clearance " + clearance + " mm [mN]", "ΔE/ΔL",
                       1e3 * loose.stored_n, 1e3 * loose.work_n, 2e-3, ErrorKind::relative,
                       "energy conservation"});
     checks.push_back({"V11", "rise of the hand force, clearance " + clearance + " mm [%]", "none", percent,
-                      1e2 * (loose.hand_n / hand_n - 1.0), 2.0, ErrorKind::absolute,
+                      1e2 * (loose.hand_n / hand_n - 1.0), allowed, ErrorKind::absolute,
                       "known to the whole percent"});
   }
   // The sleeve holds the wire by a moment here, and pushing against that takes the configurational force M²/2EI.
