@@ -92,6 +92,7 @@ RunFigures play(const Vessel& vessel, const sim::Access& access, int steps, cons
     figures.substeps += substeps_of(command, spec);
     figures.converged += r.converged;
     figures.split += r.splits > 0;
+    figures.on_edges += r.walls_at_rest ? 0 : 1;
     figures.snaps += r.snapped;
     figures.detections += r.detections;
     if (!r.snapped) {
@@ -125,8 +126,8 @@ std::string RunFigures::text() const {
   std::ostringstream out;
   double sum = 0.0;
   for (const double n : iterations) sum += n;
-  out << steps << " steps, " << converged << " converged, " << split << " split, "
-      << detections / std::max(1, substeps) << " detections a step, "
+  out << steps << " steps, " << converged << " converged, " << split << " split, " << on_edges
+      << " on edges, " << detections / std::max(1, substeps) << " detections a step, "
       << calm_detections / std::max(1, calm_substeps) << " without a snap, iterations "
       << sum / std::max(1, steps) << " mean " << io::percentile(iterations, 0.99) << " p99 "
       << io::percentile(iterations, 1.0) << " max, " << snaps << " snaps, up to " << most_inserted_mm
@@ -155,6 +156,7 @@ std::string RunFigures::crossings_text() const {
 void expect_all_that_must_hold(const RunFigures& run) {
   EXPECT_EQ(run.converged, run.steps) << run.first_failure;
   EXPECT_LE(run.split, 0.02 * run.steps);
+  EXPECT_LE(run.on_edges, 0.02 * run.substeps) << "walls swing";
   EXPECT_LE(run.calm_detections, 1.05 * run.calm_substeps);
   ASSERT_TRUE(run.verdict.is_object()) << "check_crossings gave no verdict";
   EXPECT_EQ(run.verdict["steps"], run.recorded);

@@ -37,6 +37,7 @@ struct RunFigures {
   int substeps = 0;  ///< what they were divided into to keep the limits of a step
   int recorded = 0;  ///< shapes outside the sheath, those on the way of a snap included
   int converged = 0, split = 0, snaps = 0;
+  int on_edges = 0;  ///< commands in which walls were not brought to rest
   double detections = 0.0;
   double calm_detections = 0.0;    ///< in commands without a snap,
   int calm_substeps = 0;           ///< and their sub-steps

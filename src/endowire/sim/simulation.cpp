@@ -355,7 +355,7 @@ solve::Validity Simulation::Impl::check_walls() {
   if (wrong == 0) {
     if (problem_.inside_region()) {
       corrections_ += walls.corrected ? 1 : 0;
-      report_.walls_at_rest = corrections_ < kMaxCorrections;
+      if (corrections_ == kMaxCorrections) report_.walls_at_rest = false;
       return walls.corrected ? solve::Validity::corrected : solve::Validity::holds;
     }
     // A state on its way that no wall contradicts goes on from where it is.
