@@ -55,9 +55,7 @@ void play(Procedure& procedure, sim::Simulation& simulation, std::span<const io:
   procedure.history.emplace(count);
   sim::EventWatch events(procedure.centrelines);
   const double length_mm = procedure.scene.instrument.length_mm();
-  // Twice the rods of the longest kind: they are shorter where the wire is curved.
-  events.reserve(static_cast<std::size_t>(2.0 * length_mm / procedure.scene.simulation.solver.rod_length_mm),
-                 length_mm);
+  events.reserve(static_cast<std::size_t>(simulation.most_rods()), length_mm);
   sim::Snapshot on_the_way;
   for (std::uint64_t step = 1; step <= count; ++step) {
     const io::TimedCommand& timed = commands[step - 1];

@@ -201,7 +201,8 @@ TEST(RodLength, Converges) {
   run.wire = test::curved_tip_wire(0.0);
   std::vector<Outcome> outcomes;
   for (const double length : {4.0, 2.0, 1.0}) {
-    run.spec.solver.rod_length_mm = length;
+    run.spec.solver.rods.adaptive = false;
+    run.spec.solver.rods.rod_length_mm = length;
     outcomes.push_back(run());
   }
   const auto difference = [](const State& coarse, const State& fine) {

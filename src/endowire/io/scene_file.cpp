@@ -189,8 +189,8 @@ void read_target(const TomlTable& root, SceneFile& scene) {
 
 void read_solver(const TomlTable& root, sim::SolverSpec& solver) {
   const std::optional<TomlTable> table =
-      root.table("solver", {"rod_length_mm", "correction_tolerance_mm", "correction_tolerance_deg",
-                            "force_tolerance", "proximal_scale", "stick_stiffness_ratio",
+      root.table("solver", {"correction_tolerance_mm", "correction_tolerance_deg", "force_tolerance",
+                            "proximal_scale", "stick_stiffness_ratio",
                             "grip_stiffness_n_per_mm", "max_iterations", "max_splits"});
   if (!table) return;
   const auto positive = [](double high) {
@@ -201,7 +201,6 @@ void read_solver(const TomlTable& root, sim::SolverSpec& solver) {
   const auto read = [&](std::string_view key, double& value, const Range& range) {
     value = table->number_or(key, value, range);
   };
-  read("rod_length_mm", solver.rod_length_mm, between(0.2, 20.0));
   read("correction_tolerance_mm", solver.correction_tolerance_mm, positive(0.1));
   read("correction_tolerance_deg", solver.correction_tolerance_deg, positive(1.0));
   read("force_tolerance", solver.force_tolerance, positive(0.01));
@@ -211,6 +210,36 @@ void read_solver(const TomlTable& root, sim::SolverSpec& solver) {
   solver.max_iterations =
       static_cast<int>(table->integer_or("max_iterations", solver.max_iterations, 1, 10'000));
   solver.max_splits = static_cast<int>(table->integer_or("max_splits", solver.max_splits, 0, 20));
+}
+
+void read_rods(const TomlTable& root, sim::ResolutionSpec& rods) {
+  const std::optional<TomlTable> table =
+      root.table("rods", {"adaptive", "rod_length_mm", "longest_mm", "shortest_mm", "shape_tolerance_mm",
+                          "max_turn_deg", "max_bias_deg", "lumen_diameters", "budget_mj"});
+  if (!table) return;
+  const auto read = [&](std::string_view key, double& value, double low, double high) {
+    value = table->number_or(key, value, between(low, high));
+  };
+  const auto read_deg = [&](std::string_view key, double& value_rad, double low, double high) {
+    constexpr double rad_per_deg = std::numbers::pi / 180.0;
+    if (table->has(key)) value_rad = rad_per_deg * table->number(key, between(low, high));
+  };
+  rods.adaptive = table->boolean_or("adaptive", rods.adaptive);
+  if (rods.adaptive && table->has("rod_length_mm"))
+    table->refuse("rod_length_mm", "given for rods that adapt", "given with adaptive = false");
+  for (const std::string_view key : {"longest_mm", "shortest_mm", "shape_tolerance_mm", "max_turn_deg",
+                                     "lumen_diameters", "budget_mj"}) {
+    if (!rods.adaptive && table->has(key))
+      table->refuse(key, "given for uniform rods", "given with adaptive = true");
+  }
+  read("rod_length_mm", rods.rod_length_mm, 0.2, 20.0);
+  read("longest_mm", rods.longest_mm, 0.5, 64.0);
+  read("shortest_mm", rods.shortest_mm, 0.2, rods.longest_mm);
+  read("shape_tolerance_mm", rods.shape_tolerance_mm, 1e-4, 1.0);
+  read_deg("max_turn_deg", rods.max_turn_rad, 1.0, 90.0);
+  read_deg("max_bias_deg", rods.max_bias_rad, 0.5, 60.0);
+  read("lumen_diameters", rods.lumen_diameters, 0.1, 100.0);
+  read("budget_mj", rods.budget_mj, 1e-9, 1e3);
 }
 
 void read_simulation(const TomlTable& root, SceneFile& scene) {
@@ -228,6 +257,7 @@ void read_simulation(const TomlTable& root, SceneFile& scene) {
         table->number_or("blood_density_g_per_mm3", spec.blood_density_g_per_mm3, between(0.0, 2e-3));
   }
   read_wall(root, scene);
+  read_rods(root, spec.solver.rods);
   read_solver(root, spec.solver);
 }
 
@@ -284,7 +314,7 @@ SceneFile read_scene(const std::string& text, const std::string& name,
                      const std::vector<fs::path>& instrument_folders, const RecordedParts* recorded) {
   const toml::table toml = parse_toml(text, name);
   const TomlTable root(toml, name, "",
-                       {"schema", "title", "vessel", "access", "environment", "wall", "solver", "instrument",
+                       {"schema", "title", "vessel", "access", "environment", "wall", "rods", "solver", "instrument",
                         "simulation", "motion", "target"});
   static_cast<void>(root.integer("schema", 1, 1));
   const fs::path folder = fs::path(name).parent_path();

@@ -65,24 +65,23 @@ void fill_material(const MaterialLine& line, const std::vector<double>& arc_mm, 
   ENDOWIRE_EXPECTS(arc_mm.size() >= 3, "a chain has at least two rods");
   material.resize(static_cast<int>(arc_mm.size()) - 1);
   material.arc_mm.assign(arc_mm.begin(), arc_mm.end());
-  fill_material_from(line, 0, gravity_m_per_s2, fluid_density_g_per_mm3, material);
+  ImmersedWire{&line, gravity_m_per_s2, fluid_density_g_per_mm3}.fill(0, material.rods(), material);
 }
 
-void fill_material_from(const MaterialLine& line, int first, double gravity_m_per_s2,
-                        double fluid_density_g_per_mm3, ChainMaterial& material) {
+void ImmersedWire::fill(int first, int last, ChainMaterial& material) const {
   const int rods = material.rods();
   const auto& arc = material.arc_mm;
-  for (int i = std::max(0, first - 1); i < rods; ++i) {
+  for (int i = std::max(0, first - 1); i < rods && i <= last; ++i) {
     material.length_mm[at(i)] = arc[at(i + 1)] - arc[at(i)];
     material.stretch_n_per_mm[at(i)] =
-        line.axial_rigidity_n(arc[at(i)], arc[at(i + 1)]) / material.length_mm[at(i)];
+        line->axial_rigidity_n(arc[at(i)], arc[at(i + 1)]) / material.length_mm[at(i)];
   }
-  for (int j = std::max(0, first - 1); j <= rods; ++j) {
+  for (int j = std::max(0, first - 1); j <= rods && j <= last + 1; ++j) {
     const double from = j == 0 ? arc[0] : 0.5 * (arc[at(j - 1)] + arc[at(j)]);
     const double to = j == rods ? arc[at(rods)] : 0.5 * (arc[at(j)] + arc[at(j + 1)]);
-    const double mass = line.mass_g(from, to) - fluid_density_g_per_mm3 * line.volume_mm3(from, to);
+    const double mass = line->mass_g(from, to) - fluid_density_g_per_mm3 * line->volume_mm3(from, to);
     material.weight_n[at(j)] = mass * gravity_m_per_s2 * kGramMetreToNewton;
-    material.joints[at(j)] = joint_material(line, from, to);
+    material.joints[at(j)] = joint_material(*line, from, to);
   }
 }
 

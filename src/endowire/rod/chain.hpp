@@ -44,9 +44,16 @@ struct ChainMaterial {
 /// @param arc_mm  increasing, at least three
 void fill_material(const MaterialLine& line, const std::vector<double>& arc_mm, double gravity_m_per_s2,
                    double fluid_density_g_per_mm3, ChainMaterial& material);
-/// The same for joints `first` … end only, after the chain changed there.
-void fill_material_from(const MaterialLine& line, int first, double gravity_m_per_s2,
-                        double fluid_density_g_per_mm3, ChainMaterial& material);
+
+/// A wire in a fluid under gravity: what its rods and joints are made of wherever they lie.
+struct ImmersedWire {
+  const MaterialLine* line = nullptr;  ///< outlives this
+  double gravity_m_per_s2 = 0.0;       ///< its magnitude
+  double fluid_density_g_per_mm3 = 0.0;
+
+  /// As fill_material(), for joints `first` … `last` and the rods next to them only, after arcs changed there.
+  void fill(int first, int last, ChainMaterial& material) const;
+};
 
 /// Energy of bending, twist and stretch.
 ///

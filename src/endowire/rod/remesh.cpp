@@ -48,7 +48,7 @@ void shift_tip(ChainShape& shape, int last_joint, const Eigen::Vector3d& by) {
 }
 
 template <typename T>
-void insert_at(std::vector<T>& list, int place, const T& value) {
+void insert_at(std::vector<T>& list, int place, T value) {
   list.insert(list.begin() + place, value);
 }
 
@@ -102,9 +102,11 @@ void divide_rod(ChainMaterial& material, ChainShape& shape, int rod, double arc_
   renew_twist(shape, rod, tip_twist - spin_tip);
   renew_twist(shape, rod + 1, spin_tip - spin_hand);
   renew_twist(shape, rod + 2, hand_twist + spin_hand);
-  const int rods = material.rods();
   insert_at(material.arc_mm, rod + 1, arc_mm);
-  material.resize(rods + 1);
+  insert_at(material.joints, rod + 1, material.joints[at(rod + 1)]);
+  insert_at(material.weight_n, rod + 1, 0.0);
+  insert_at(material.length_mm, rod + 1, hand_part);
+  insert_at(material.stretch_n_per_mm, rod + 1, material.stretch_n_per_mm[at(rod)]);
 }
 
 void join_rods(ChainMaterial& material, ChainShape& shape, int joint) {
@@ -132,9 +134,11 @@ void join_rods(ChainMaterial& material, ChainShape& shape, int joint) {
   erase_at(shape.twist_rad, joint);
   renew_twist(shape, joint - 1, tip_twist - spin_tip);
   renew_twist(shape, joint, hand_twist + spin_hand);
-  const int rods = material.rods();
   erase_at(material.arc_mm, joint);
-  material.resize(rods - 1);
+  erase_at(material.joints, joint);
+  erase_at(material.weight_n, joint);
+  erase_at(material.length_mm, joint);
+  erase_at(material.stretch_n_per_mm, joint);
 }
 
 }  // namespace endowire::rod

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "endowire/contact/wall.hpp"
+#include "endowire/sim/resolution_spec.hpp"
 
 namespace endowire::sim {
 
@@ -18,7 +19,7 @@ using contact::WallSpec;
 
 /// Numerical parameters; none of them shapes the result (tests change each tenfold).
 struct SolverSpec {
-  double rod_length_mm = 4.0;  ///< longest rod, 0.2 … 20
+  ResolutionSpec rods;
   double correction_tolerance_mm = 1e-3;
   double correction_tolerance_deg = 1e-2;
   double force_tolerance = 1e-6;       ///< of the largest internal force or moment

@@ -15,20 +15,15 @@ std::size_t at(int i) {
 
 }  // namespace
 
-Sheath::Sheath(const rod::MaterialLine& line, const Access& access, std::vector<double> joint_arcs_mm,
-               double gravity_m_per_s2, double fluid_density_g_per_mm3)
-    : line_(&line),
-      access_(access),
-      arcs_mm_(std::move(joint_arcs_mm)),
-      gravity_m_per_s2_(gravity_m_per_s2),
-      fluid_density_g_per_mm3_(fluid_density_g_per_mm3) {}
+Sheath::Sheath(const rod::ImmersedWire& wire, const Access& access, const Resolution& resolution)
+    : wire_(wire), access_(access), resolution_(&resolution) {}
 
-void Sheath::fill(int first, ChainProblem& problem) const {
+void Sheath::fill_from(int first, ChainProblem& problem) const {
   rod::ChainMaterial& material = problem.material;
   const double inserted = problem.feed.inserted_mm;
   material.arc_mm[at(material.rods() - 1)] = inserted;
   material.arc_mm[at(material.rods())] = inserted + kSheathRod_mm;
-  rod::fill_material_from(*line_, first, gravity_m_per_s2_, fluid_density_g_per_mm3_, material);
+  wire_.fill(first, material.rods(), material);
   problem.fit_entering(inserted);
 }
 
@@ -51,7 +46,7 @@ void Sheath::enter(double inserted_mm, double turn_rad, ChainProblem& problem) c
   problem.feed.inserted_mm = inserted_mm;
   problem.material.resize(2);
   problem.material.arc_mm[0] = 0.0;
-  fill(0, problem);
+  fill_from(0, problem);
 }
 
 void Sheath::leave(ChainProblem& problem) {
@@ -72,11 +67,13 @@ void Sheath::adapt(double inserted_mm, ChainProblem& problem) const {
     rod::join_rods(material, shape, last_free());
     first = std::min(first, last_free());
   }
-  while (shape.rods() < most_rods() && least - arcs_mm_[at(shape.rods() - 1)] >= kEntry_mm) {
+  while (shape.rods() < resolution_->most_rods()) {
+    const double next_mm = resolution_->next_joint_mm(shape, material.arc_mm[at(last_free())]);
+    if (least - next_mm < kEntry_mm) break;
     first = std::min(first, last_free());
-    rod::divide_rod(material, shape, last_free(), arcs_mm_[at(shape.rods() - 1)]);
+    rod::divide_rod(material, shape, last_free(), next_mm);
   }
-  if (first < shape.rods()) fill(std::max(0, first - 1), problem);
+  if (first < shape.rods()) fill_from(std::max(0, first - 1), problem);
 }
 
 }  // namespace endowire::sim

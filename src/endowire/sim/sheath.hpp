@@ -1,8 +1,7 @@
 #pragma once
 
-#include <vector>
-
 #include "endowire/sim/chain_problem.hpp"
+#include "endowire/sim/resolution.hpp"
 #include "endowire/sim/scene.hpp"
 
 namespace endowire::sim {
@@ -17,14 +16,8 @@ class Sheath {
   static constexpr double kLeave_mm = 0.5;
 
   Sheath() = default;
-  /// @param line            outlives this
-  /// @param joint_arcs_mm   material arcs of the joints, from the tip, as uniform_grid() gives them
-  /// @param gravity_m_per_s2  its magnitude
-  Sheath(const rod::MaterialLine& line, const Access& access, std::vector<double> joint_arcs_mm,
-         double gravity_m_per_s2, double fluid_density_g_per_mm3);
-
-  /// Most rods that a wire can have, that in the sheath included.
-  [[nodiscard]] int most_rods() const { return static_cast<int>(arcs_mm_.size()); }
+  /// @param resolution  says where the next joint is; outlives this
+  Sheath(const rod::ImmersedWire& wire, const Access& access, const Resolution& resolution);
 
   /// The tip comes out, straight.
   void enter(double inserted_mm, double turn_rad, ChainProblem& problem) const;
@@ -33,14 +26,12 @@ class Sheath {
   /// Lets joints come and go so that the entering rod keeps a sound length now and with so much inserted.
   void adapt(double inserted_mm, ChainProblem& problem) const;
   /// Fills in what the joints from `first` on are made of, and the entering rod, with the wire that is inserted.
-  void fill(int first, ChainProblem& problem) const;
+  void fill_from(int first, ChainProblem& problem) const;
 
  private:
-  const rod::MaterialLine* line_ = nullptr;
+  rod::ImmersedWire wire_;
   Access access_;
-  std::vector<double> arcs_mm_;
-  double gravity_m_per_s2_ = 0.0;
-  double fluid_density_g_per_mm3_ = 0.0;
+  const Resolution* resolution_ = nullptr;
 };
 
 }  // namespace endowire::sim

@@ -6,9 +6,9 @@
 
 #include "endowire/base/error.hpp"
 #include "endowire/sim/chain_problem.hpp"
-#include "endowire/sim/grid.hpp"
 #include "endowire/sim/measure.hpp"
 #include "endowire/sim/predictor.hpp"
+#include "endowire/sim/resolution.hpp"
 #include "endowire/sim/sheath.hpp"
 #include "endowire/sim/waypoints.hpp"
 
@@ -20,8 +20,6 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-/// Largest turn of the unloaded wire at one joint: pre-curved tips get shorter rods.
-constexpr double kMaxBias_rad = 0.15;
 /// A joint has snapped that is so far, after one sub-step, both off the trace of the wire before it and from where its motion of
 /// the step before would have taken it.
 constexpr double kSnap_mm = 1.5;
@@ -39,6 +37,9 @@ constexpr int kMaxDetections = 100;
 constexpr int kMaxCorrections = 12;
 /// From this one on the field's own error is allowed.
 constexpr int kUnevenFrom = 12;
+/// Room for samples: three a millimetre of wire are more than the narrowest lumen asks for.
+constexpr double kSamples_per_mm = 3.0;
+constexpr std::size_t kLeastSamples = 400;
 constexpr double kStandardGravity_floor = 1e-12;
 
 [[noreturn]] void refuse(const std::string& text) {
@@ -67,6 +68,7 @@ class Simulation::Impl {
   State state_;  ///< the last converged state
   StepReport report_;
   Waypoints waypoints_;
+  Resolution resolution_;
 
  private:
   bool advance(const Command& command, int split);
@@ -76,6 +78,7 @@ class Simulation::Impl {
   void redetect();
   void keep_waypoint();
   [[nodiscard]] bool lies_clear() const;
+  void adapt_rods();
   void finish(const Command& command);
   void measure();
   [[nodiscard]] contact::Wire wire() const { return {line_, problem_.material, problem_.shape}; }
@@ -143,8 +146,9 @@ Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrume
   problem_.on_step = [this] { keep_waypoint(); };
 
   const double gravity_m_per_s2 = spec_.gravity_m_per_s2.norm();
-  sheath_ = Sheath(line_, access_, uniform_grid(line_, solver.rod_length_mm, kMaxBias_rad), gravity_m_per_s2,
-                   spec_.blood_density_g_per_mm3);
+  const rod::ImmersedWire immersed{&line_, gravity_m_per_s2, spec_.blood_density_g_per_mm3};
+  resolution_ = Resolution(solver.rods, immersed, *field_);
+  sheath_ = Sheath(immersed, access_, resolution_);
   problem_.line = &line_;
   problem_.region_mm = kRegion_mm;
   if (gravity_m_per_s2 > kStandardGravity_floor) {
@@ -158,8 +162,8 @@ Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrume
   // The same stiffness at a lever of one millimetre.
   feed.torque = {solver.grip_stiffness_n_per_mm, line_.instrument().grip_torque_n_mm};
 
-  const int joints = sheath_.most_rods() + 1;
-  const std::size_t samples = 20 * at(sheath_.most_rods());
+  const int joints = resolution_.most_rods() + 1;
+  const auto samples = static_cast<std::size_t>(kSamples_per_mm * line_.length_mm()) + kLeastSamples;
   problem_.reserve(joints, samples);
   newton_.reserve(4 * (joints + 1));
   friction_.reserve(samples);
@@ -200,7 +204,7 @@ void Simulation::Impl::save(State& out) const {
 }
 
 void Simulation::Impl::restore(const State& state) {
-  require_sound(state, sheath_.most_rods(), friction_.arc_mm.capacity());
+  require_sound(state, resolution_.most_rods(), friction_.arc_mm.capacity());
   const std::size_t rods = state.directors.size();
   if (&state != &state_) state_ = state;
   rod::ChainShape& shape = problem_.shape;
@@ -223,7 +227,7 @@ void Simulation::Impl::restore(const State& state) {
     }
     problem_.material.resize(static_cast<int>(rods));
     std::copy(state.arc_mm.begin(), state.arc_mm.end(), problem_.material.arc_mm.begin());
-    sheath_.fill(0, problem_);
+    sheath_.fill_from(0, problem_);
   }
   drift_.advance_mm = state.drift.advance_mm;
   drift_.slip_mm = state.drift.slip_mm;
@@ -291,7 +295,7 @@ bool Simulation::Impl::advance(const Command& command, int split) {
 bool Simulation::Impl::advance_once(const Command& command) {
   Feed& feed = problem_.feed;
   // The end of the wire stays outside: there is nothing left to push.
-  const double most = line_.length_mm() - spec_.solver.rod_length_mm;
+  const double most = line_.length_mm() - kSheathRod_mm;
   hand_mm_ = std::min(command.advance_mm, most - feed.inserted_mm);
   const double slip = in_sheath() ? 0.0 : predicted_slip_mm(drift_, hand_mm_);
   const double advance_mm = hand_mm_ - slip;
@@ -316,6 +320,7 @@ bool Simulation::Impl::advance_once(const Command& command) {
       feed.stretch_mm = feed.twist_rad = 0.0;
       return true;
     }
+    adapt_rods();
     sheath_.adapt(inserted, problem_);
     problem_.contact.place(wire(), problem_.shape.rods() - 1, *field_, contact_spec_, friction_);
     follow_trace(problem_.material, {advance_mm, command.torque_rad}, problem_.shape, trace_);
@@ -323,13 +328,21 @@ bool Simulation::Impl::advance_once(const Command& command) {
     follow_drift(drift_, problem_.material, hand_mm_, problem_.shape, trace_);
     feed.inserted_mm = traced_inserted_mm_ = inserted;
     feed.stretch_mm += slip;
-    sheath_.fill(problem_.shape.rods() - 2, problem_);
+    sheath_.fill_from(problem_.shape.rods() - 2, problem_);
   }
   const int n = problem_.shape.rods();
   problem_.release_all();
   problem_.hold_joint(n - 1, true, true, true);
   predicted_.assign(problem_.shape.joints_mm.begin(), problem_.shape.joints_mm.end());
   return settle();
+}
+
+/// Rods in the lumen become shorter or longer, as the shape asks for that the last step found.
+void Simulation::Impl::adapt_rods() {
+  const RodChanges changes = resolution_.adapt(problem_.material, problem_.shape);
+  report_.rods_divided += changes.divided;
+  report_.rods_joined += changes.joined;
+  report_.resolution_energy_mj += changes.energy_mj;
 }
 
 /// Detects once and minimises; check_walls() is asked on the way.
@@ -493,6 +506,9 @@ const State& Simulation::state() const {
 }
 void Simulation::restore(const State& state) {
   impl_->restore(state);
+}
+int Simulation::most_rods() const {
+  return impl_->resolution_.most_rods();
 }
 std::uint64_t Simulation::state_hash() const {
   return impl_->state_.hash();

@@ -30,6 +30,8 @@ struct StepReport {
   int rods = 0;
   int contact_samples = 0;
   bool snapped = false;
+  int rods_divided = 0, rods_joined = 0;  ///< rods that enter not counted
+  double resolution_energy_mj = 0.0;      ///< Σ|ΔE| of these changes
   double inserted_length_mm = 0.0;
   double hand_slip_mm = 0.0;  ///< commanded minus achieved advance in this step
   double push_force_n = 0.0;  ///< force of the hand on the wire, > 0 pushes
@@ -62,6 +64,8 @@ class Simulation {
   void restore(const State& state);
   /// Bits of the state, the same for the same history on the same binary.
   [[nodiscard]] std::uint64_t state_hash() const;
+  /// Most rods that this wire can have, for those who reserve.
+  [[nodiscard]] int most_rods() const;
   /// The shape and its forces for viewers and files.
   void snapshot(Snapshot& out) const;
   /// Shapes that the last step passed through on its way, where it moved far: a snap has a path, and whoever draws or

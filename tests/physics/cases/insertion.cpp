@@ -71,7 +71,8 @@ Push push(double clearance_mm, double rod_mm, double wall_mpa, double inlet_mm, 
   sim::SimulationSpec spec;
   spec.gravity_m_per_s2.setZero();
   spec.wall.modulus_mpa = wall_mpa;
-  spec.solver.rod_length_mm = rod_mm;
+  spec.solver.rods.adaptive = false;
+  spec.solver.rods.rod_length_mm = rod_mm;
   spec.solver.correction_tolerance_mm =
       1e-6;  // the figures are tabulated: their digits must not hang on the path
   spec.solver.correction_tolerance_deg = 1e-5;

@@ -61,7 +61,8 @@ Turning turn_in_bend(double lambda, double most_rad) {
   sim::SimulationSpec spec;
   spec.gravity_m_per_s2.setZero();
   spec.wall.modulus_mpa = kStiff_mpa;
-  spec.solver.rod_length_mm = kRod_mm;
+  spec.solver.rods.adaptive = false;
+  spec.solver.rods.rod_length_mm = kRod_mm;
   spec.solver.correction_tolerance_mm =
       1e-6;  // the figures are tabulated: their digits must not hang on the path
   spec.solver.correction_tolerance_deg = 1e-5;

@@ -321,7 +321,7 @@ TEST(FillMaterial, WeightsSpansAndLengthsAddUp) {
   other[5] = 12.0;
   other[6] = 22.0;
   again.arc_mm = other;
-  fill_material_from(line, 5, 9.81, 1.06e-3, again);
+  ImmersedWire{&line, 9.81, 1.06e-3}.fill(5, again.rods(), again);
   fill_material(line, other, 9.81, 1.06e-3, material);
   EXPECT_EQ(again.length_mm, material.length_mm);
   EXPECT_EQ(again.weight_n, material.weight_n);

@@ -45,7 +45,7 @@ class Sheathed : public testing::Test {
     const std::vector<double> arcs{0.0, 4.0, 8.0, 12.0, 16.0, kInserted_mm, kInserted_mm + kSheathRod_mm};
     problem_.material.resize(6);
     problem_.material.arc_mm = arcs;
-    rod::fill_material_from(line_, 0, 9.81, 0.0, problem_.material);
+    rod::ImmersedWire{&line_, 9.81, 0.0}.fill(0, 6, problem_.material);
     problem_.shape = test::random_chain(arcs, bend_rad, 0.1, 1e-3, random);
     problem_.fit_entering(kInserted_mm);
     problem_.release_all();
