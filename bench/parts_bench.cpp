@@ -144,7 +144,8 @@ void detect(benchmark::State& state, const vessel::Field& field) {
   const contact::ContactSpec spec;
   contact::ContactSet contact;
   const contact::Wire wire{line, material, shape};
-  contact.place(wire, rods_of(state) - 1, field, spec, {});
+  contact.begin(wire, {});
+  contact.place(wire, rods_of(state) - 1, field, spec);
   for (auto _ : state) {
     contact.detect(wire, field, spec);
     benchmark::ClobberMemory();

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "endowire/contact/contact_set.hpp"
-#include "endowire/contact/crest.hpp"
 #include "endowire/contact/detect.hpp"
+#include "endowire/contact/put_sample.hpp"
 #include "endowire/math/transport.hpp"
 
 namespace endowire::contact {
@@ -51,7 +51,6 @@ LocalWall* single_wall(Sample& s, const Eigen::Vector3d& u, double nearest_mm) {
 /// @return  whether that changes more than the solution's own accuracy
 bool correct_wall(Sample& s, const Eigen::Vector3d& u, double predicted_mm,
                   const vessel::WallDistance& actual) {
-  if (s.at_crest) return false;
   LocalWall* wall = single_wall(s, u, predicted_mm);
   if (wall == nullptr) return false;
   const double turn = (actual.gradient - local_height_derivatives(*wall, u).gradient).norm();
@@ -68,7 +67,6 @@ bool reachable(const vessel::Field& field, const Eigen::Vector3d& from, const Ei
 bool walls_agree(const Sample& a, const Sample& b) {
   const Eigen::Vector3d n = a.wall[0].normal.normalized();
   for (const Sample* s : {&a, &b}) {
-    if (s->at_crest) return false;
     for (int k = 0; k < s->walls; ++k) {
       const LocalWall& wall = s->wall[at(k)];
       if (wall.ridge || n.dot(wall.normal.normalized()) < kSameNormal) return false;
@@ -122,24 +120,9 @@ void detect_sample(const rod::ChainShape& shape, const vessel::Field& field, con
 
 }  // namespace
 
-/// What a sample remembers belongs to the material: it is recalled where the sample goes to.
-void ContactSet::move_to_crest(const Wire& wire, const vessel::Field& field, const ContactSpec& spec,
-                               std::size_t& hint, Sample& s) const {
-  const double arc_before = s.arc_mm;
-  const Eigen::Vector3d before = s.position_mm(wire.shape);
-  seek_crest(wire, field, spec, s);
-  if (s.arc_mm == arc_before) return;
-  s.detected_at_mm += s.position_mm(wire.shape) - before;
-  s.start_mm = start_position_mm(s);
-  s.start_spin_rad = start_shape_.spin_rad[at(s.rod)];
-  memory_.recall(hint, s);
-}
-
 void ContactSet::detect(const Wire& wire, const vessel::Field& field, const ContactSpec& spec) {
   renewals_ = 0;
-  std::size_t hint = 0;
   for (Sample& s : samples_) {
-    move_to_crest(wire, field, spec, hint, s);
     s.detected_at_mm = s.start_mm;
     s.last_way_mm.setZero();
     detect_sample(wire.shape, field, spec, s);
@@ -148,10 +131,8 @@ void ContactSet::detect(const Wire& wire, const vessel::Field& field, const Cont
 
 int ContactSet::redetect(const Wire& wire, const vessel::Field& field, const ContactSpec& spec) {
   int detected = 0;
-  std::size_t hint = 0;
   for (Sample& s : samples_) {
     if (!s.wrong) continue;
-    move_to_crest(wire, field, spec, hint, s);
     detect_sample(wire.shape, field, spec, s);
     ++detected;
   }
@@ -204,13 +185,10 @@ void ContactSet::add_between(const Wire& wire, std::size_t before, double arc_mm
   Sample s;
   s.rod = a.rod;
   put_at(wire.line, wire.material, arc_mm, s);
-  s.nominal_mm = arc_mm;
   s.from_mm = 0.5 * (a.arc_mm + arc_mm);
   s.to_mm = 0.5 * (arc_mm + b.arc_mm);
   set_stretch(a, a.from_mm, s.from_mm);
   set_stretch(b, s.to_mm, b.to_mm);
-  a.nominal_mm = std::min(a.nominal_mm, a.to_mm);
-  b.nominal_mm = std::max(b.nominal_mm, b.from_mm);
   s.start_mm = start_position_mm(s);
   s.start_spin_rad = start_shape_.spin_rad[at(s.rod)];
   std::size_t hint = 0;
@@ -241,13 +219,8 @@ Verification ContactSet::verify(const Wire& wire, const vessel::Field& field, co
       double predicted = HUGE_VAL;
       for (int k = 0; k < s.walls; ++k) predicted = std::min(predicted, local_height_mm(s.wall[at(k)], u));
       const vessel::WallDistance there_is = field.at(x);
-      double actual = there_is.distance_mm;
+      const double actual = there_is.distance_mm;
       if (std::min(actual, predicted) >= s.radius_mm) continue;
-      if (s.at_crest && actual > predicted + allowed) {  // the crest has slid along the wire
-        Sample there = s;
-        seek_crest(wire, field, spec, there);
-        actual = field.at(there.position_mm(shape)).distance_mm;
-      }
       error = s.walls == 0 ? s.radius_mm - actual : std::abs(actual - predicted);
       if (correct && error <= allowed && correct_wall(s, u, predicted, there_is)) result.corrected = true;
     }

@@ -18,17 +18,6 @@ constexpr double kRubbingFloor_n = 1e-4;
 constexpr int kFullRenewals = 3;
 constexpr double kLeastRelaxation = 0.2;
 constexpr double kMostRelaxation = 3.0;
-constexpr int kMaxSamplesPerRod = 16;
-constexpr double kMinShare_mm = 0.25;
-
-/// Intervals of a rod between samples: a power of two, so that samples persist when the lumen narrows.
-int intervals(double rod_length_mm, double lumen_radius_mm, const ContactSpec& spec) {
-  const double spacing = std::clamp(0.5 * lumen_radius_mm, kMinShare_mm, spec.max_share_mm);
-  int count = 1;
-  while (count < kMaxSamplesPerRod && rod_length_mm > spacing * count * (1.0 + 1e-9)) count *= 2;
-  return count;
-}
-
 Eigen::Vector2d slip_of(const Sample& s, const rod::ChainShape& shape) {
   const Eigen::Vector3d moved = s.position_mm(shape) - s.start_mm;
   const double turned = shape.spin_rad[at(s.rod)] - s.start_spin_rad;
@@ -88,46 +77,13 @@ void ContactSet::fit_rod(int rod, const rod::ChainMaterial& material) {
     s->fraction = (s->arc_mm - material.arc_mm[at(rod)]) / material.length_mm[at(rod)];
 }
 
-/// Where the wire that a sample stands on was in the last converged state: rods may have had other lengths then.
+/// Where the wire that a sample stands on was in the last converged state: rods may have had other lengths then. What was in the
+/// sheath comes from its end: before that no wall rubbed it.
 Eigen::Vector3d ContactSet::start_position_mm(const Sample& s) const {
   const double from = start_arc_mm_[at(s.rod)];
-  const double fraction = (s.arc_mm - from) / (start_arc_mm_[at(s.rod + 1)] - from);
+  const double fraction = std::min(1.0, (s.arc_mm - from) / (start_arc_mm_[at(s.rod + 1)] - from));
   return (1.0 - fraction) * start_shape_.joints_mm[at(s.rod)] +
          fraction * start_shape_.joints_mm[at(s.rod + 1)];
-}
-
-void ContactSet::place(const Wire& wire, int rods_in_lumen, const vessel::Field& field,
-                       const ContactSpec& spec, const FrictionMemory& memory) {
-  const rod::ChainShape& shape = wire.shape;
-  const rod::ChainMaterial& material = wire.material;
-  samples_.clear();
-  memory_.assign(memory);
-  start_shape_ = shape;
-  start_arc_mm_.assign(material.arc_mm.begin(), material.arc_mm.end());
-  for (int i = 0; i < rods_in_lumen; ++i) {
-    const double length = material.length_mm[at(i)];
-    const Eigen::Vector3d middle = 0.5 * (shape.joints_mm[at(i)] + shape.joints_mm[at(i + 1)]);
-    const int count = intervals(length, field.lumen_radius_mm(middle), spec);
-    for (int k = 0; k < count; ++k) {
-      Sample s;
-      s.rod = i;
-      s.fraction = static_cast<double>(k) / count;
-      s.arc_mm = s.nominal_mm = material.arc_mm[at(i)] + s.fraction * length;
-      s.to_mm = s.nominal_mm + 0.5 * length / count;
-      s.from_mm = samples_.empty() ? s.nominal_mm : samples_.back().to_mm;
-      s.radius_mm = wire.line.radius_mm(s.arc_mm);
-      s.friction = wire.line.friction(s.arc_mm);
-      s.start_mm = s.position_mm(shape);
-      s.start_spin_rad = shape.spin_rad[at(i)];
-      samples_.push_back(s);
-    }
-  }
-  std::size_t hint = 0;
-  for (Sample& s : samples_) {
-    memory_.recall(hint, s);
-    s.normal_n = s.lagged_normal_n;
-    s.detected_at_mm = s.start_mm;
-  }
 }
 
 double ContactSet::energy_mj(const rod::ChainShape& shape) {

@@ -27,18 +27,23 @@ class ContactSet {
   [[nodiscard]] const std::vector<Sample>& samples() const { return samples_; }
   [[nodiscard]] bool empty() const { return samples_.empty(); }
 
-  /// Chooses the samples of a converged shape, on joints and along rods 0 … rods_in_lumen − 1, spaced by the local
-  /// lumen radius, and gives each its friction history.
-  void place(const Wire& wire, int rods_in_lumen, const vessel::Field& field, const ContactSpec& spec,
-             const FrictionMemory& memory);
+  /// The converged state that a step starts from: where friction is measured from, and what it remembers. No samples are left.
+  void begin(const Wire& wire, const FrictionMemory& memory);
+  /// Chooses the samples of the shape that the step is expected to end near, on joints and along rods 0 … rods_in_lumen − 1, and gives
+  /// each its start and its friction history.
+  ///
+  /// They are half a lumen radius apart or spec.max_share_mm, and closer, down to kFinest_mm, where the wire is about to touch and its distance to
+  /// the wall is not the same all along: over a ridge the force of the wall acts on a short piece of wire, and samples further apart
+  /// than that piece is long would feel it or not by where they happen to lie.
+  void place(const Wire& wire, int rods_in_lumen, const vessel::Field& field, const ContactSpec& spec);
+  static constexpr double kFinest_mm = 0.125;
   void clear() { samples_.clear(); }
   /// The length of a rod has changed by wire that flows through its end on the hand's side: its samples, which belong to the material, are
   /// put at their arcs again.
   /// @param rod  the last one that has samples
   void fit_rod(int rod, const rod::ChainMaterial& material);
 
-  /// Detection: every sample goes to the crest of its stretch, if there is one, and finds the walls around its place in the
-  /// shape, reached on a path that crosses no wall.
+  /// Detection: every sample finds the walls around its place in the shape, reached on a path that crosses no wall.
   void detect(const Wire& wire, const vessel::Field& field, const ContactSpec& spec);
   /// Detection for the samples that the last verification found wrong, and no others: those keep the walls they have.
   /// @return  number of samples detected
@@ -89,9 +94,8 @@ class ContactSet {
   [[nodiscard]] Eigen::Vector3d friction_force_n(const rod::ChainShape& shape, std::size_t sample) const;
 
  private:
+  class Placement;
   void add_between(const Wire& wire, std::size_t before, double arc_mm);
-  void move_to_crest(const Wire& wire, const vessel::Field& field, const ContactSpec& spec, std::size_t& hint,
-                     Sample& sample) const;
 
   std::vector<Sample> samples_;
   [[nodiscard]] Eigen::Vector3d start_position_mm(const Sample& sample) const;

@@ -165,7 +165,6 @@ void find_local_walls(const vessel::Field& field, const ContactSpec& spec, const
 
   sample.lumen_radius_mm = field.lumen_radius_mm(q);
   Eigen::Vector3d n = nearest.gradient / slope;
-  if (sample.at_crest) n = (sample.crest_normal - tangent * tangent.dot(sample.crest_normal)).normalized();
   Eigen::Vector3d e2 = tangent - n * n.dot(tangent);
   e2 = e2.norm() > 0.1 ? e2.normalized() : math::any_normal(n);
   const Eigen::Vector3d e1 = n.cross(e2);
@@ -195,11 +194,6 @@ void find_local_walls(const vessel::Field& field, const ContactSpec& spec, const
       add(field.at(q + side * direction), side * direction);
   };
   const Profile across(field, q, e1, reach, height);
-  if (sample.at_crest) {  // along the wire it falls away on both sides
-    if (across.round) wall.first_curvature_per_mm = std::max(0.0, across.curvature_per_mm);
-    add_sides(across, e1);
-    return;
-  }
   const Profile along(field, q, e2, reach, height);
   const Principal principal(across, along, e1, e2, height, reach);
   if (across.round && along.round) {

@@ -20,8 +20,7 @@ namespace endowire::contact {
 ///
 /// The nearest wall is a plane; round, where the field a little way off on both sides has the heights and slopes of a circle;
 /// or two planes of a ridge, where it is convex along the wire. Where the field there is nearer than that predicts (a corner
-/// between two facets, the far side of a narrow lumen, both sides of a carina), another wall is added, as a plane. At a
-/// crest the wall has no slope along the wire, and falls away there.
+/// between two facets, the far side of a narrow lumen, both sides of a carina), another wall is added, as a plane.
 /// @param tangent  of the wire, unit
 void find_local_walls(const vessel::Field& field, const ContactSpec& spec, const Eigen::Vector3d& tangent,
                       Sample& sample);

@@ -22,7 +22,6 @@ struct Sample {
   int rod = 0;
   double fraction = 0.0;  ///< 0 at joint `rod` … 1 at joint `rod + 1`
   double arc_mm = 0.0;
-  double nominal_mm = 0.0;            ///< arc where it lies unless the wire is nearer to the wall beside it
   double from_mm = 0.0, to_mm = 0.0;  ///< the stretch of wire that it stands for: stretches follow each other
   double radius_mm = 0.0;
   double friction = 0.0;
@@ -33,8 +32,6 @@ struct Sample {
   Eigen::Vector3d detected_at_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d last_way_mm = Eigen::Vector3d::Zero();  ///< to there, since the detection before
   double clearance_mm = 0.0;                              ///< at detection, from the field
-  bool at_crest = false;  ///< the wire is nearer to the wall here than beside it: a line over an edge
-  Eigen::Vector3d crest_normal = Eigen::Vector3d::UnitX();
   double lumen_radius_mm = 0.0;
   double foundation_n_per_mm2 = 0.0;
   double tip_cap_n_per_mm = 0.0;

@@ -37,8 +37,8 @@ constexpr int kMaxDetections = 100;
 constexpr int kMaxCorrections = 12;
 /// From this one on the field's own error is allowed.
 constexpr int kUnevenFrom = 12;
-/// Room for samples: three a millimetre of wire are more than the narrowest lumen asks for.
-constexpr double kSamples_per_mm = 3.0;
+/// Room for samples: eight a millimetre are the most that a narrow lumen asks for, and some for ridges.
+constexpr double kSamples_per_mm = 10.0;
 constexpr std::size_t kLeastSamples = 400;
 constexpr double kStandardGravity_floor = 1e-12;
 
@@ -306,7 +306,7 @@ bool Simulation::Impl::advance_once(const Command& command) {
       return true;
     }
     sheath_.enter(inserted, hand_turn_rad_ + command.torque_rad, problem_);
-    problem_.contact.place(wire(), problem_.shape.rods() - 1, *field_, contact_spec_, friction_);
+    problem_.contact.begin(wire(), friction_);
     traced_.assign(problem_.shape.joints_mm.begin(), problem_.shape.joints_mm.end());
     traced_inserted_mm_ = inserted;
   } else {
@@ -322,7 +322,7 @@ bool Simulation::Impl::advance_once(const Command& command) {
     }
     adapt_rods();
     sheath_.adapt(inserted, problem_);
-    problem_.contact.place(wire(), problem_.shape.rods() - 1, *field_, contact_spec_, friction_);
+    problem_.contact.begin(wire(), friction_);
     follow_trace(problem_.material, {advance_mm, command.torque_rad}, problem_.shape, trace_);
     traced_.assign(problem_.shape.joints_mm.begin(), problem_.shape.joints_mm.end());
     follow_drift(drift_, problem_.material, hand_mm_, problem_.shape, trace_);
@@ -331,6 +331,7 @@ bool Simulation::Impl::advance_once(const Command& command) {
     sheath_.fill_from(problem_.shape.rods() - 2, problem_);
   }
   const int n = problem_.shape.rods();
+  problem_.contact.place(wire(), n - 1, *field_, contact_spec_);
   problem_.release_all();
   problem_.hold_joint(n - 1, true, true, true);
   predicted_.assign(problem_.shape.joints_mm.begin(), problem_.shape.joints_mm.end());

@@ -70,7 +70,8 @@ double pull_n(double friction, double angle_rad) {
   double sum_n = 0.0;
   for (int step = 0; step < 2 * kSteps; ++step) {
     const contact::Wire seen{chain.line, problem.material, problem.shape};
-    problem.contact.place(seen, rods - 1, tube, contact_spec, memory);
+    problem.contact.begin(seen, memory);
+    problem.contact.place(seen, rods - 1, tube, contact_spec);
     if (step > 0) {  // every joint moves along its own rod, away from the tip
       std::vector<Eigen::Vector3d> joints = problem.shape.joints_mm;
       for (std::size_t i = 0; i + 1 < joints.size(); ++i) {

@@ -50,8 +50,10 @@ class PressedWire : public testing::Test {
   }
 
   void place_and_detect(const vessel::Field& field) {
+    set_.reserve(20, 1000);
     const FrictionMemory none;
-    set_.place(wire(), static_cast<int>(arcs_.size()) - 1, field, spec_, none);
+    set_.begin(wire(), none);
+    set_.place(wire(), static_cast<int>(arcs_.size()) - 1, field, spec_);
     set_.detect(wire(), field, spec_);
     static_cast<void>(set_.energy_mj(shape_));
     set_.renew_lagged();
@@ -143,7 +145,8 @@ TEST_F(PressedWire, SharesAddUpToTheLength) {
   for (const double lumen : {0.7, 1.5, 3.0, 12.0}) {
     const vessel::TubeField tube(Vector3d::Zero(), Vector3d::UnitZ(), lumen);
     shape_ = test::straight_chain(arcs_, Vector3d::Zero(), Vector3d::UnitZ());
-    set_.place(wire(), 10, tube, spec_, {});
+    set_.begin(wire(), {});
+    set_.place(wire(), 10, tube, spec_);
     double sum = 0.0;
     double last_arc = -1.0;
     for (const Sample& s : set_.samples()) {
@@ -268,7 +271,9 @@ TEST_F(PressedWire, FrictionIsRememberedByMaterialArc) {
   for (const Eigen::Vector2d& t : memory.traction_n_per_mm) largest = std::max(largest, t.norm());
   EXPECT_GT(largest, 1e-4);
   ContactSet next;
-  next.place(wire_at(there), 10, *kTube, spec_, memory);
+  next.reserve(20, 1000);
+  next.begin(wire_at(there), memory);
+  next.place(wire_at(there), 10, *kTube, spec_);
   ASSERT_EQ(next.samples().size(), memory.arc_mm.size());
   for (std::size_t i = 0; i < memory.arc_mm.size(); ++i) {
     EXPECT_EQ(next.samples()[i].traction_n_per_mm, memory.traction_n_per_mm[i]);
@@ -277,7 +282,8 @@ TEST_F(PressedWire, FrictionIsRememberedByMaterialArc) {
   // Nothing moves for many steps: the tractions stay to the last digits, also those at the limit.
   FrictionMemory now = memory;
   for (int step = 0; step < 1000; ++step) {
-    next.place(wire_at(there), 10, *kTube, spec_, now);
+    next.begin(wire_at(there), now);
+    next.place(wire_at(there), 10, *kTube, spec_);
     next.detect(wire_at(there), *kTube, spec_);
     static_cast<void>(next.energy_mj(there));
     next.remember(there, now);

@@ -111,7 +111,8 @@ TEST_F(RubbingSheathed, GradientWithContactAtTheEnteringRod) {
                                  problem_.shape.frames[4].col(2), kRadius_mm);
     rod::ChainShape before = problem_.shape;  // it has slid since, and rubs
     for (std::size_t j = 0; j < 5; ++j) before.joints_mm[j] -= 0.2 * problem_.shape.frames[4].col(2);
-    problem_.contact.place({line_, problem_.material, before}, 5, tube, {}, {});
+    problem_.contact.begin({line_, problem_.material, before}, {});
+    problem_.contact.place({line_, problem_.material, before}, 5, tube, {});
     problem_.contact.detect({line_, problem_.material, problem_.shape}, tube, {});
     static_cast<void>(problem_.energy_mj());
     problem_.contact.renew_lagged();

@@ -1,0 +1,157 @@
+// Where the samples of a step lie on the wire.
+#include <algorithm>
+#include <cmath>
+
+#include "endowire/contact/contact_set.hpp"
+#include "endowire/contact/put_sample.hpp"
+
+namespace endowire::contact {
+
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+constexpr int kMaxSamplesPerRod = 16;
+constexpr double kMinShare_mm = 0.25;
+/// A stretch whose clearance is larger touches nothing in the step: what the prediction may be off by.
+constexpr double kNear_mm = 0.05;
+/// A stretch is even whose clearance differs by less from one end to the other, and in its middle from their mean.
+constexpr double kUneven_mm = 0.002;
+/// Longer stretches are looked at in quarters, so that a ridge beside their middle is seen.
+constexpr double kQuarters_mm = 1.0;
+
+/// Intervals of a rod between samples: a power of two, so that samples persist when the lumen narrows.
+int intervals(double rod_length_mm, double lumen_radius_mm, const ContactSpec& spec) {
+  const double spacing = std::clamp(0.5 * lumen_radius_mm, kMinShare_mm, spec.max_share_mm);
+  int count = 1;
+  while (count < kMaxSamplesPerRod && rod_length_mm > spacing * count * (1.0 + 1e-9)) count *= 2;
+  return count;
+}
+
+}  // namespace
+
+void put_at(const rod::MaterialLine& line, const rod::ChainMaterial& material, double arc_mm, Sample& s) {
+  while (s.rod > 0 && arc_mm < material.arc_mm[at(s.rod)]) --s.rod;
+  while (s.rod + 2 < material.rods() && arc_mm >= material.arc_mm[at(s.rod + 1)]) ++s.rod;
+  s.arc_mm = arc_mm;
+  s.fraction = (arc_mm - material.arc_mm[at(s.rod)]) / material.length_mm[at(s.rod)];
+  s.radius_mm = line.radius_mm(arc_mm);
+  s.friction = line.friction(arc_mm);
+}
+
+/// Walks along the wire and puts samples where they are needed.
+class ContactSet::Placement {
+ public:
+  Placement(const Wire& wire, const vessel::Field& field, const ContactSpec& spec,
+            std::vector<Sample>& samples)
+      : wire_(wire), field_(field), spec_(spec), samples_(samples) {}
+
+  void run(int rods) {
+    rods_left_ = rods;
+    end_mm_ = wire_.material.arc_mm[at(rods)];
+    for (rod_ = 0; rod_ < rods; ++rod_, --rods_left_) {
+      const double length = wire_.material.length_mm[at(rod_)];
+      const Eigen::Vector3d middle =
+          0.5 * (wire_.shape.joints_mm[at(rod_)] + wire_.shape.joints_mm[at(rod_ + 1)]);
+      const int count = intervals(length, field_.lumen_radius_mm(middle), spec_);
+      Site from = look_at(0.0);
+      for (int k = 0; k < count; ++k) {
+        const Site to = look_at(static_cast<double>(k + 1) / count);
+        put(from);
+        divide(from, to);
+        from = to;
+      }
+    }
+  }
+
+ private:
+  struct Site {
+    double fraction = 0.0;
+    double arc_mm = 0.0;
+    double clearance_mm = 0.0;
+  };
+
+  [[nodiscard]] Site look_at(double fraction) const {
+    const double arc = wire_.material.arc_mm[at(rod_)] + fraction * wire_.material.length_mm[at(rod_)];
+    const Eigen::Vector3d x = (1.0 - fraction) * wire_.shape.joints_mm[at(rod_)] +
+                              fraction * wire_.shape.joints_mm[at(rod_ + 1)];
+    return {fraction, arc, field_.at(x).distance_mm - wire_.line.radius_mm(arc)};
+  }
+
+  void put(const Site& site) {
+    Sample s;
+    s.rod = rod_;
+    s.fraction = site.fraction;
+    s.arc_mm = site.arc_mm;
+    s.radius_mm = wire_.line.radius_mm(site.arc_mm);
+    s.friction = wire_.line.friction(site.arc_mm);
+    samples_.push_back(s);
+  }
+
+  [[nodiscard]] static bool even(const Site& a, const Site& middle, const Site& b) {
+    if (std::min({a.clearance_mm, middle.clearance_mm, b.clearance_mm}) > kNear_mm) return true;
+    return std::abs(a.clearance_mm - b.clearance_mm) < kUneven_mm &&
+           std::abs(middle.clearance_mm - 0.5 * (a.clearance_mm + b.clearance_mm)) < kUneven_mm;
+  }
+
+  /// There is always room for the samples that the lumen asks for, to the end of the wire.
+  [[nodiscard]] bool has_room() const {
+    const double most = 2.0 * (end_mm_ - samples_.back().arc_mm) / kMinShare_mm + rods_left_;
+    return static_cast<double>(samples_.size()) + most + 2.0 < static_cast<double>(samples_.capacity());
+  }
+
+  void divide(const Site& a, const Site& b) {
+    const double length = b.arc_mm - a.arc_mm;
+    if (length < 2.0 * kFinest_mm * (1.0 - 1e-9)) return;
+    // The clearance changes by no more than the arc does.
+    if (a.clearance_mm + b.clearance_mm > length + 2.0 * kNear_mm) return;
+    const Site middle = look_at(0.5 * (a.fraction + b.fraction));
+    bool leave = even(a, middle, b);
+    if (leave && length > kQuarters_mm) {
+      leave = even(a, look_at(0.5 * (a.fraction + middle.fraction)), middle) &&
+              even(middle, look_at(0.5 * (middle.fraction + b.fraction)), b);
+    }
+    if (leave || !has_room()) return;
+    divide(a, middle);
+    put(middle);
+    divide(middle, b);
+  }
+
+  const Wire& wire_;
+  const vessel::Field& field_;
+  const ContactSpec& spec_;
+  std::vector<Sample>& samples_;
+  int rod_ = 0;
+  int rods_left_ = 0;
+  double end_mm_ = 0.0;
+};
+
+void ContactSet::begin(const Wire& wire, const FrictionMemory& memory) {
+  samples_.clear();
+  memory_.assign(memory);
+  start_shape_ = wire.shape;
+  start_arc_mm_.assign(wire.material.arc_mm.begin(), wire.material.arc_mm.end());
+}
+
+void ContactSet::place(const Wire& wire, int rods_in_lumen, const vessel::Field& field,
+                       const ContactSpec& spec) {
+  samples_.clear();
+  Placement(wire, field, spec, samples_).run(rods_in_lumen);
+  std::size_t hint = 0;
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    Sample& s = samples_[i];
+    const double next_mm =
+        i + 1 < samples_.size() ? samples_[i + 1].arc_mm : wire.material.arc_mm[at(rods_in_lumen)];
+    s.from_mm = i > 0 ? samples_[i - 1].to_mm : s.arc_mm;
+    s.to_mm = 0.5 * (s.arc_mm + next_mm);
+    s.start_mm = start_position_mm(s);
+    s.start_spin_rad = start_shape_.spin_rad[at(s.rod)];
+    memory_.recall(hint, s);
+    s.normal_n = s.lagged_normal_n;
+    s.detected_at_mm = s.start_mm;
+  }
+}
+
+}  // namespace endowire::contact
