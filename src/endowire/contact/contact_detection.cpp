@@ -191,8 +191,7 @@ void ContactSet::add_between(const Wire& wire, std::size_t before, double arc_mm
   set_stretch(b, s.to_mm, b.to_mm);
   s.start_mm = start_position_mm(s);
   s.start_spin_rad = start_shape_.spin_rad[at(s.rod)];
-  std::size_t hint = 0;
-  memory_.recall(hint, s);
+  memory_.recall(advanced_mm_, s);
   // It has followed its neighbours on their way: detection goes on from between them.
   s.detected_at_mm = s.position_mm(wire.shape) + 0.5 * (a.detected_at_mm - a.position_mm(wire.shape) +
                                                         b.detected_at_mm - b.position_mm(wire.shape));

@@ -35,7 +35,9 @@ class ContactSet {
   /// They are half a lumen radius apart or spec.max_share_mm, and closer, down to kFinest_mm, where the wire is about to touch and its distance to
   /// the wall is not the same all along: over a ridge the force of the wall acts on a short piece of wire, and samples further apart
   /// than that piece is long would feel it or not by where they happen to lie.
-  void place(const Wire& wire, int rods_in_lumen, const vessel::Field& field, const ContactSpec& spec);
+  /// @param advanced_mm  by which the wire has come forward since begin(): it finds the walls that pressed on what was before it
+  void place(const Wire& wire, int rods_in_lumen, const vessel::Field& field, const ContactSpec& spec,
+             double advanced_mm = 0.0);
   static constexpr double kFinest_mm = 0.125;
   void clear() { samples_.clear(); }
   /// The length of a rod has changed by wire that flows through its end on the hand's side: its samples, which belong to the material, are
@@ -103,6 +105,7 @@ class ContactSet {
   FrictionMemory memory_;        ///< of the last converged state
   rod::ChainShape start_shape_;  ///< the last converged state
   std::vector<double> start_arc_mm_;
+  double advanced_mm_ = 0.0;
   int renewals_ = 0;         ///< of lagged normal forces since the detection
   double relaxation_ = 1.0;  ///< of the last of them
 };

@@ -19,9 +19,10 @@ struct FrictionMemory {
   void reserve(std::size_t samples);
   /// Copies without giving memory up.
   void assign(const FrictionMemory& other);
-  /// Gives a sample its traction and lagged normal force, linear between what is remembered.
-  /// @param hint  where the last look-up ended, for increasing arcs
-  void recall(std::size_t& hint, Sample& sample) const;
+  /// Gives a sample its traction, which belongs to the material, and its lagged normal force, which belongs to the wall and is that of the
+  /// material that lay there; linear between what is remembered.
+  /// @param advanced_mm  by which the wire has come forward since: near the tip, whose contact goes with it, that does not count
+  void recall(double advanced_mm, Sample& sample) const;
 
   bool operator==(const FrictionMemory&) const = default;
 };

@@ -136,10 +136,10 @@ void ContactSet::begin(const Wire& wire, const FrictionMemory& memory) {
 }
 
 void ContactSet::place(const Wire& wire, int rods_in_lumen, const vessel::Field& field,
-                       const ContactSpec& spec) {
+                       const ContactSpec& spec, double advanced_mm) {
   samples_.clear();
+  advanced_mm_ = advanced_mm;
   Placement(wire, field, spec, samples_).run(rods_in_lumen);
-  std::size_t hint = 0;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     Sample& s = samples_[i];
     const double next_mm =
@@ -148,7 +148,7 @@ void ContactSet::place(const Wire& wire, int rods_in_lumen, const vessel::Field&
     s.to_mm = 0.5 * (s.arc_mm + next_mm);
     s.start_mm = start_position_mm(s);
     s.start_spin_rad = start_shape_.spin_rad[at(s.rod)];
-    memory_.recall(hint, s);
+    memory_.recall(advanced_mm_, s);
     s.normal_n = s.lagged_normal_n;
     s.detected_at_mm = s.start_mm;
   }

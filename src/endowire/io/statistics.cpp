@@ -89,6 +89,10 @@ void RunStatistics::add(double time_s, const sim::StepReport& report, std::span<
   least_rods = steps == 1 ? report.rods : std::min(least_rods, report.rods);
   most_rods = std::max(most_rods, report.rods);
   last_rods = report.rods;
+  rods += report.rods;
+  rods_divided += static_cast<std::uint64_t>(std::max(0, report.rods_divided));
+  rods_joined += static_cast<std::uint64_t>(std::max(0, report.rods_joined));
+  max_resolution_energy_mj = std::max(max_resolution_energy_mj, report.resolution_energy_mj);
   most_contact_samples = std::max(most_contact_samples, report.contact_samples);
   max_force_5mm_n = std::max(max_force_5mm_n, report.max_force_5mm_n);
   max_tip_force_n = std::max(max_tip_force_n, report.tip_force_n);

@@ -48,6 +48,10 @@ class RunStatistics {
   int least_rods = 0;
   int most_rods = 0;
   int last_rods = 0;
+  double rods = 0.0;  ///< sum over the steps
+  std::uint64_t rods_divided = 0;
+  std::uint64_t rods_joined = 0;
+  double max_resolution_energy_mj = 0.0;
   int most_contact_samples = 0;
   double max_force_5mm_n = 0.0;
   double max_tip_force_n = 0.0;

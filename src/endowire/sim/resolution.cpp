@@ -6,6 +6,7 @@
 
 #include "endowire/rod/remesh.hpp"
 #include "endowire/sim/grid.hpp"
+#include "endowire/sim/vessel_ahead.hpp"
 
 namespace endowire::sim {
 
@@ -33,7 +34,9 @@ Resolution::Resolution(const ResolutionSpec& spec, const rod::ImmersedWire& wire
     : spec_(spec), wire_(wire), field_(&field) {
   const rod::MaterialLine& line = *wire.line;
   if (spec_.adaptive) {
-    most_rods_ = static_cast<int>(std::ceil(line.length_mm() / spec_.shortest_mm)) + 2;
+    for (smallest_mm_ = spec_.longest_mm; 0.5 * smallest_mm_ >= spec_.shortest_mm * (1.0 - 1e-9);)
+      smallest_mm_ *= 0.5;
+    most_rods_ = static_cast<int>(std::ceil(line.length_mm() / smallest_mm_)) + 2;
   } else {
     grid_ = uniform_grid(line, spec_.rod_length_mm, spec_.max_bias_rad);
     most_rods_ = static_cast<int>(grid_.size()) + 1;
@@ -44,8 +47,7 @@ Resolution::Resolution(const ResolutionSpec& spec, const rod::ImmersedWire& wire
 
 double Resolution::longest_cell_mm(double arc_mm, double wanted_mm) const {
   double cell = spec_.longest_mm;
-  while (cell > spec_.shortest_mm * (1.0 + 1e-9) &&
-         (cell > wanted_mm || std::abs(std::remainder(arc_mm, cell)) > kSameArc_mm))
+  while (cell > smallest_mm_ && (cell > wanted_mm || std::abs(std::remainder(arc_mm, cell)) > kSameArc_mm))
     cell *= 0.5;
   return cell;
 }
@@ -61,26 +63,26 @@ double Resolution::next_joint_mm(const rod::ChainShape& shape, double arc_mm) co
                        spec_.max_turn_rad / curvature});
   }
   double cell = longest_cell_mm(arc_mm, wanted);
-  while (cell > spec_.shortest_mm * (1.0 + 1e-9) &&
-         wire_.line->rest_bend_rad(arc_mm, arc_mm + cell).norm() > spec_.max_bias_rad)
+  while (cell > smallest_mm_ && wire_.line->rest_bend_rad(arc_mm, arc_mm + cell).norm() > spec_.max_bias_rad)
     cell *= 0.5;
   return arc_mm + cell;
 }
 
-/// Wanted lengths of the rods in the lumen.
+/// Wanted lengths of the rods in the lumen. The tip is about to follow the vessel ahead.
 void Resolution::measure(const rod::ChainMaterial& material, const rod::ChainShape& shape) {
   const rod::MaterialLine& line = *wire_.line;
   const int rods = shape.rods() - 1;
   const std::vector<double>& arc = material.arc_mm;
   const auto length = [&](int i) { return arc[at(i + 1)] - arc[at(i)]; };
   const auto curvature_at = [&](int j) {
-    if (j <= 0 || j > rods) return 0.0;
+    if (j > rods) return 0.0;
     const double span = j == rods ? 0.5 * length(j - 1) : 0.5 * (length(j - 1) + length(j));
     return turn_at(shape, j) / span;
   };
   window_mm_.resize(at(rods));
   wanted_mm_.resize(at(rods));
-  double before = curvature_at(0);
+  const Eigen::Vector3d& tip_direction = shape.frames[0].col(2);
+  double before = vessel_curvature_ahead_per_mm(*field_, shape.joints_mm[0], tip_direction);
   for (int i = 0; i < rods; ++i) {
     const double after = curvature_at(i + 1);
     const double curvature = std::max({before, after, 1e-9});
@@ -130,7 +132,7 @@ RodChanges Resolution::adapt(rod::ChainMaterial& material, rod::ChainShape& shap
   // From the hand to the tip: what is still to come keeps its number. The rod that enters is not touched, nor the joint before it.
   for (int i = shape.rods() - 3; i >= 0 && changes.energy_mj <= spec_.budget_mj; --i) {
     const double length = material.arc_mm[at(i + 1)] - material.arc_mm[at(i)];
-    if (length > wanted_mm_[at(i)] && length > 1.5 * spec_.shortest_mm) {
+    if (length > wanted_mm_[at(i)] && length > 1.5 * smallest_mm_) {
       rod::divide_rod(material, shape, i, material.arc_mm[at(i)] + 0.5 * length);
       wire_.fill(i, i + 2, material);
       ++changes.divided;

@@ -50,6 +50,7 @@ class Resolution {
   std::vector<double> grid_;    ///< arcs of the joints of a uniform wire
   std::vector<double> wanted_mm_;
   std::vector<double> window_mm_;
+  double smallest_mm_ = 0.0;  ///< cell
   int most_rods_ = 0;
 };
 

@@ -300,7 +300,8 @@ bool Simulation::Impl::advance_once(const Command& command) {
   const double slip = in_sheath() ? 0.0 : predicted_slip_mm(drift_, hand_mm_);
   const double advance_mm = hand_mm_ - slip;
   const double inserted = feed.inserted_mm + advance_mm;
-  if (in_sheath()) {
+  const bool in_sheath_before = in_sheath();
+  if (in_sheath_before) {
     if (inserted < Sheath::kEntry_mm) {
       feed.inserted_mm = inserted;
       return true;
@@ -331,7 +332,7 @@ bool Simulation::Impl::advance_once(const Command& command) {
     sheath_.fill_from(problem_.shape.rods() - 2, problem_);
   }
   const int n = problem_.shape.rods();
-  problem_.contact.place(wire(), n - 1, *field_, contact_spec_);
+  problem_.contact.place(wire(), n - 1, *field_, contact_spec_, in_sheath_before ? 0.0 : advance_mm);
   problem_.release_all();
   problem_.hold_joint(n - 1, true, true, true);
   predicted_.assign(problem_.shape.joints_mm.begin(), problem_.shape.joints_mm.end());

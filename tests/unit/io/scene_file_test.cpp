@@ -213,8 +213,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"schema = 1", "schema = 1.0", "s.toml: schema is 1; must be 1"},
         BadScene{"[vessel]", "[vessels]",
                  "s.toml: vessels is unknown; known here: schema, title, vessel, access, environment, wall, "
-                 "solver, "
-                 "instrument, simulation, motion, target"},
+                 "rods, solver, instrument, simulation, motion, target"},
         BadScene{"generate = ", "genrate = ",
                  "s.toml: vessel.genrate is unknown; known here: file, unit, generate, seed, open_ends, "
                  "parameters, stenosis, aneurysm"},
@@ -286,8 +285,16 @@ INSTANTIATE_TEST_SUITE_P(
                  "s.toml: wall.modulus_mpa is 0.01; must be between 0.1 and 1000"},
         BadScene{"[simulation]", "[wall]\nmax_deflection_mm = 0.5\n[simulation]",
                  "s.toml: wall.max_deflection_mm is 0.5; must be between 0.01 and 0.18"},
-        BadScene{"[simulation]", "[solver]\nrod_length_mm = 0.1\n[simulation]",
-                 "s.toml: solver.rod_length_mm is 0.1; must be between 0.2 and 20"},
+        BadScene{"[simulation]", "[rods]\nadaptive = false\nrod_length_mm = 0.1\n[simulation]",
+                 "s.toml: rods.rod_length_mm is 0.1; must be between 0.2 and 20"},
+        BadScene{"[simulation]", "[rods]\nrod_length_mm = 2\n[simulation]",
+                 "s.toml: rods.rod_length_mm is given for rods that adapt; must be given with adaptive = false"},
+        BadScene{"[simulation]", "[rods]\nadaptive = false\nshape_tolerance_mm = 0.1\n[simulation]",
+                 "s.toml: rods.shape_tolerance_mm is given for uniform rods; must be given with adaptive = true"},
+        BadScene{"[simulation]", "[rods]\nlongest_mm = 4\nshortest_mm = 5\n[simulation]",
+                 "s.toml: rods.shortest_mm is 5; must be between 0.2 and 4"},
+        BadScene{"[simulation]", "[rods]\nmax_turn_deg = 100\n[simulation]",
+                 "s.toml: rods.max_turn_deg is 100; must be between 1 and 90"},
         BadScene{"[simulation]", "[solver]\nmax_iterations = 2.5\n[simulation]",
                  "s.toml: solver.max_iterations is 2.5; must be an integer between 1 and 10000"},
         BadScene{"[simulation]", "[environment]\nblood_density_g_per_mm3 = 1.06\n[simulation]",

@@ -1,0 +1,48 @@
+#include "endowire/sim/vessel_ahead.hpp"
+
+#include <algorithm>
+
+namespace endowire::sim {
+
+namespace {
+
+constexpr double kSight_mm = 60.0;
+constexpr double kAtWall_mm = 0.05;
+constexpr double kLeastStep_mm = 0.1;
+/// A direction that is steeper to the wall tells nothing of where the vessel goes.
+constexpr double kLeastAlong = 0.2;
+
+/// How far it is straight on to the wall: the distance to the wall is a step that passes none.
+double sight_mm(const vessel::Field& field, const Eigen::Vector3d& from_mm,
+                const Eigen::Vector3d& direction) {
+  double seen = 0.0;
+  while (seen < kSight_mm) {
+    const double distance = field.at(from_mm + seen * direction).distance_mm;
+    if (distance < kAtWall_mm) break;
+    seen += std::max(distance, kLeastStep_mm);
+  }
+  return seen;
+}
+
+}  // namespace
+
+double vessel_curvature_ahead_per_mm(const vessel::Field& field, const Eigen::Vector3d& point_mm,
+                                     const Eigen::Vector3d& direction) {
+  const vessel::WallDistance wall = field.at(point_mm);
+  const double radius = field.lumen_radius_mm(point_mm);
+  const double slope = wall.gradient.norm();
+  Eigen::Vector3d middle = point_mm;
+  Eigen::Vector3d along = direction;
+  if (slope > 0.5) {
+    const Eigen::Vector3d inward = wall.gradient / slope;
+    middle += std::max(0.0, radius - wall.distance_mm) * inward;
+    along -= inward * inward.dot(direction);
+  }
+  if (along.norm() < kLeastAlong) return 1.0 / radius;
+  const double sight = sight_mm(field, middle, along.normalized());
+  if (sight >= kSight_mm) return 0.0;
+  const double squares = sight * sight - radius * radius;
+  return squares > 0.0 ? std::min(1.0 / radius, 2.0 * radius / squares) : 1.0 / radius;
+}
+
+}  // namespace endowire::sim
