@@ -34,6 +34,17 @@ Stencil stencil_at(double u) {
   return {cell - 1, w, d};
 }
 
+using Row = Eigen::Array4f;
+
+Row row_at(const std::uint16_t* nodes) {
+  return Eigen::Map<const Eigen::Array<std::uint16_t, 4, 1>>(nodes).cast<float>();
+}
+
+/// In one order on every machine.
+float sum(const Row& r) {
+  return (r[0] + r[1]) + (r[2] + r[3]);
+}
+
 double trilinear(const std::array<std::uint16_t, 8>& corner, const Vector3d& f) {
   double sum = 0.0;
   for (unsigned i = 0; i < 8; ++i) {
@@ -90,37 +101,30 @@ WallDistance MeshField::interpolate(std::size_t brick, const Vector3d& point_mm,
   const Stencil sz = stencil_at(u.z());
   const std::uint16_t* corner =
       samples_.data() + brick * samples_per_brick + (sx.start * nodes + sy.start) * nodes + sz.start;
-  float value = 0.0F;
-  float slope_x = 0.0F;
-  float slope_y = 0.0F;
-  float slope_z = 0.0F;
+  // Four nodes along z at a time; what is summed over y and x first costs nothing along z.
+  Row value = Row::Zero();
+  Row by_x = Row::Zero();
+  Row by_y = Row::Zero();
   for (std::size_t i = 0; i < 4; ++i) {
-    float v = 0.0F;
-    float dy = 0.0F;
-    float dz = 0.0F;
+    Row v = Row::Zero();
+    Row dy = Row::Zero();
     for (std::size_t j = 0; j < 4; ++j) {
-      const std::uint16_t* row = corner + (i * nodes + j) * nodes;
-      const auto a = static_cast<float>(row[0]);
-      const auto b = static_cast<float>(row[1]);
-      const auto c = static_cast<float>(row[2]);
-      const auto d = static_cast<float>(row[3]);
-      const float along = (a * sz.value[0] + b * sz.value[1]) + (c * sz.value[2] + d * sz.value[3]);
-      const float slope = (a * sz.slope[0] + b * sz.slope[1]) + (c * sz.slope[2] + d * sz.slope[3]);
-      v += sy.value[j] * along;
-      dy += sy.slope[j] * along;
-      dz += sy.value[j] * slope;
+      const Row nodes_along_z = row_at(corner + (i * nodes + j) * nodes);
+      v += sy.value[j] * nodes_along_z;
+      dy += sy.slope[j] * nodes_along_z;
     }
     value += sx.value[i] * v;
-    slope_x += sx.slope[i] * v;
-    slope_y += sx.value[i] * dy;
-    slope_z += sx.value[i] * dz;
+    by_x += sx.slope[i] * v;
+    by_y += sx.value[i] * dy;
   }
+  const Row along(sz.value.data());
+  const Row slope(sz.slope.data());
   const Brick& b = bricks_[brick];
   const auto step = static_cast<double>(b.step_mm);
   const double slope_unit = step * per_mm;
-  return {static_cast<double>(b.low_mm) + step * static_cast<double>(value),
-          Vector3d(slope_unit * static_cast<double>(slope_x), slope_unit * static_cast<double>(slope_y),
-                   slope_unit * static_cast<double>(slope_z))};
+  return {static_cast<double>(b.low_mm) + step * static_cast<double>(sum(value * along)),
+          slope_unit * Vector3d(static_cast<double>(sum(by_x * along)), static_cast<double>(sum(by_y * along)),
+                                static_cast<double>(sum(value * slope)))};
 }
 
 WallDistance MeshField::at(const Vector3d& point_mm) const {
