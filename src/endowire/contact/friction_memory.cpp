@@ -43,8 +43,7 @@ void FrictionMemory::recall(double advanced_mm, Sample& sample) const {
   const double wall_mm = std::min(sample.arc_mm, there_mm) < kTip_mm ? sample.arc_mm : there_mm;
   if (wall_mm <= arc_mm.back()) {
     between(wall_mm, [&](std::size_t a, std::size_t b, double w) {
-      sample.lagged_normal_n =
-          ((1.0 - w) * normal_n_per_mm[a] + w * normal_n_per_mm[b]) * sample.share_mm();
+      sample.lagged_normal_n = ((1.0 - w) * normal_n_per_mm[a] + w * normal_n_per_mm[b]) * sample.share_mm();
     });
   }
 }

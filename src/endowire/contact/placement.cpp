@@ -75,8 +75,8 @@ class ContactSet::Placement {
 
   [[nodiscard]] Site look_at(double fraction) const {
     const double arc = wire_.material.arc_mm[at(rod_)] + fraction * wire_.material.length_mm[at(rod_)];
-    const Eigen::Vector3d x = (1.0 - fraction) * wire_.shape.joints_mm[at(rod_)] +
-                              fraction * wire_.shape.joints_mm[at(rod_ + 1)];
+    const Eigen::Vector3d x =
+        (1.0 - fraction) * wire_.shape.joints_mm[at(rod_)] + fraction * wire_.shape.joints_mm[at(rod_ + 1)];
     return {fraction, arc, field_.at(x).distance_mm - wire_.line.radius_mm(arc)};
   }
 

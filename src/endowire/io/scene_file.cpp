@@ -188,10 +188,9 @@ void read_target(const TomlTable& root, SceneFile& scene) {
 }
 
 void read_solver(const TomlTable& root, sim::SolverSpec& solver) {
-  const std::optional<TomlTable> table =
-      root.table("solver", {"correction_tolerance_mm", "correction_tolerance_deg", "force_tolerance",
-                            "proximal_scale", "stick_stiffness_ratio",
-                            "grip_stiffness_n_per_mm", "max_iterations", "max_splits"});
+  const std::optional<TomlTable> table = root.table(
+      "solver", {"correction_tolerance_mm", "correction_tolerance_deg", "force_tolerance", "proximal_scale",
+                 "stick_stiffness_ratio", "grip_stiffness_n_per_mm", "max_iterations", "max_splits"});
   if (!table) return;
   const auto positive = [](double high) {
     Range range = above(0.0);
@@ -227,8 +226,8 @@ void read_rods(const TomlTable& root, sim::ResolutionSpec& rods) {
   rods.adaptive = table->boolean_or("adaptive", rods.adaptive);
   if (rods.adaptive && table->has("rod_length_mm"))
     table->refuse("rod_length_mm", "given for rods that adapt", "given with adaptive = false");
-  for (const std::string_view key : {"longest_mm", "shortest_mm", "shape_tolerance_mm", "max_turn_deg",
-                                     "lumen_diameters", "budget_mj"}) {
+  for (const std::string_view key :
+       {"longest_mm", "shortest_mm", "shape_tolerance_mm", "max_turn_deg", "lumen_diameters", "budget_mj"}) {
     if (!rods.adaptive && table->has(key))
       table->refuse(key, "given for uniform rods", "given with adaptive = true");
   }
@@ -314,8 +313,8 @@ SceneFile read_scene(const std::string& text, const std::string& name,
                      const std::vector<fs::path>& instrument_folders, const RecordedParts* recorded) {
   const toml::table toml = parse_toml(text, name);
   const TomlTable root(toml, name, "",
-                       {"schema", "title", "vessel", "access", "environment", "wall", "rods", "solver", "instrument",
-                        "simulation", "motion", "target"});
+                       {"schema", "title", "vessel", "access", "environment", "wall", "rods", "solver",
+                        "instrument", "simulation", "motion", "target"});
   static_cast<void>(root.integer("schema", 1, 1));
   const fs::path folder = fs::path(name).parent_path();
   SceneFile scene;

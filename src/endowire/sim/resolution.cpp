@@ -59,8 +59,8 @@ double Resolution::next_joint_mm(const rod::ChainShape& shape, double arc_mm) co
   const double rod_mm = (shape.joints_mm[at(sheath - 1)] - shape.joints_mm[at(sheath)]).norm();
   const double curvature = turn_at(shape, sheath) / (0.5 * rod_mm);
   if (curvature > 0.0) {
-    wanted = std::min({wanted, std::sqrt(8.0 * spec_.shape_tolerance_mm / curvature),
-                       spec_.max_turn_rad / curvature});
+    wanted = std::min(
+        {wanted, std::sqrt(8.0 * spec_.shape_tolerance_mm / curvature), spec_.max_turn_rad / curvature});
   }
   double cell = longest_cell_mm(arc_mm, wanted);
   while (cell > smallest_mm_ && wire_.line->rest_bend_rad(arc_mm, arc_mm + cell).norm() > spec_.max_bias_rad)
@@ -90,9 +90,9 @@ void Resolution::measure(const rod::ChainMaterial& material, const rod::ChainSha
     const Eigen::Vector3d middle = 0.5 * (shape.joints_mm[at(i)] + shape.joints_mm[at(i + 1)]);
     const double rest = std::max({line.rest_curvature_per_mm(arc[at(i)]).norm(),
                                   line.rest_curvature_per_mm(arc[at(i)] + 0.5 * length(i)).norm(), 1e-9});
-    window_mm_[at(i)] = std::min({std::sqrt(8.0 * spec_.shape_tolerance_mm / curvature),
-                                  spec_.max_turn_rad / curvature, spec_.max_bias_rad / rest,
-                                  spec_.lumen_diameters * 2.0 * field_->lumen_radius_mm(middle)});
+    window_mm_[at(i)] =
+        std::min({std::sqrt(8.0 * spec_.shape_tolerance_mm / curvature), spec_.max_turn_rad / curvature,
+                  spec_.max_bias_rad / rest, spec_.lumen_diameters * 2.0 * field_->lumen_radius_mm(middle)});
   }
   for (int i = 0; i < rods; ++i) {
     double wanted = window_mm_[at(i)];

@@ -47,7 +47,7 @@ class Resolution {
   ResolutionSpec spec_;
   rod::ImmersedWire wire_;
   const vessel::Field* field_ = nullptr;
-  std::vector<double> grid_;    ///< arcs of the joints of a uniform wire
+  std::vector<double> grid_;  ///< arcs of the joints of a uniform wire
   std::vector<double> wanted_mm_;
   std::vector<double> window_mm_;
   double smallest_mm_ = 0.0;  ///< cell

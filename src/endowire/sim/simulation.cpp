@@ -27,6 +27,11 @@ constexpr double kSnap_mm = 1.5;
 constexpr double kRegion_mm = 0.8;
 /// Spacing of the points at which a shape on the way is checked against the field.
 constexpr double kClearStep_mm = 0.5;
+/// A tip that moves less than this cuts no corner; nor does one whose axis stays this share of its radius off the wall on its way.
+constexpr double kShortWay_mm = 0.4;
+constexpr double kCorner = 0.5;
+/// Halvings for a corner's sake.
+constexpr int kCornerSplits = 3;
 /// Corrections below which the walls are checked, before the solution is polished.
 constexpr double kCheck_mm = 0.05;
 /// Longest motion of a joint in one Newton iteration: local walls are believed about as far.
@@ -78,6 +83,7 @@ class Simulation::Impl {
   void redetect();
   void keep_waypoint();
   [[nodiscard]] bool lies_clear() const;
+  [[nodiscard]] bool cuts_corner(const Command& command) const;
   void adapt_rods();
   void finish(const Command& command);
   void measure();
@@ -279,13 +285,13 @@ const StepReport& Simulation::Impl::step(const Command& command) {
 /// One sub-step; halved and repeated when it fails. Afterwards the state is the last converged one.
 bool Simulation::Impl::advance(const Command& command, int split) {
   const int attempt = ++attempts_;
-  if (advance_once(command)) {
+  const bool divisible = command.advance_mm != 0.0 || command.torque_rad != 0.0;
+  if (advance_once(command) && (!divisible || split >= kCornerSplits || !cuts_corner(command))) {
     finish(command);
     return true;
   }
   restore(state_);
   waypoints_.forget(attempt);
-  const bool divisible = command.advance_mm != 0.0 || command.torque_rad != 0.0;
   if (!divisible || split == spec_.solver.max_splits) return false;
   ++report_.splits;
   const Command half{0.5 * command.advance_mm, 0.5 * command.torque_rad};
@@ -402,6 +408,23 @@ bool Simulation::Impl::lies_clear() const {
     }
   }
   return true;
+}
+
+/// Whether the tip, which slid along the wall, has come straight through what that stands out: a step too long to follow it. In a snap
+/// it may; its way is that of the waypoints.
+bool Simulation::Impl::cuts_corner(const Command& command) const {
+  if (in_sheath() || state_.joints_mm.empty()) return false;
+  const Eigen::Vector3d& from = state_.joints_mm[0];
+  const Eigen::Vector3d way = problem_.shape.joints_mm[0] - from;
+  const double length = way.norm();
+  if (length < kShortWay_mm || length > 2.0 * std::abs(command.advance_mm) + kShortWay_mm) return false;
+  const double least = kCorner * line_.radius_mm(0.0);
+  for (double gone = 0.0; gone < length;) {
+    const double height = field_->at(from + gone / length * way).distance_mm;
+    if (height < least) return true;
+    gone += std::max(height - least, kShortWay_mm / 8.0);
+  }
+  return false;
 }
 
 /// Keeps the present shape, on its way to equilibrium, if the wire has moved since the last one kept and lies clear.

@@ -14,7 +14,8 @@ namespace endowire::sim {
 /// radius 1/κ, (1/κ + R)² = 1/κ² + d². No more than 1/R, where the vessel ends or the point looks at the wall.
 /// Domain  d up to kSight_mm: what bends less counts as straight, κ = 0
 /// @param direction  unit, in which the vessel is looked at
-[[nodiscard]] double vessel_curvature_ahead_per_mm(const vessel::Field& field, const Eigen::Vector3d& point_mm,
+[[nodiscard]] double vessel_curvature_ahead_per_mm(const vessel::Field& field,
+                                                   const Eigen::Vector3d& point_mm,
                                                    const Eigen::Vector3d& direction);
 
 }  // namespace endowire::sim

@@ -122,9 +122,10 @@ WallDistance MeshField::interpolate(std::size_t brick, const Vector3d& point_mm,
   const Brick& b = bricks_[brick];
   const auto step = static_cast<double>(b.step_mm);
   const double slope_unit = step * per_mm;
-  return {static_cast<double>(b.low_mm) + step * static_cast<double>(sum(value * along)),
-          slope_unit * Vector3d(static_cast<double>(sum(by_x * along)), static_cast<double>(sum(by_y * along)),
-                                static_cast<double>(sum(value * slope)))};
+  return {
+      static_cast<double>(b.low_mm) + step * static_cast<double>(sum(value * along)),
+      slope_unit * Vector3d(static_cast<double>(sum(by_x * along)), static_cast<double>(sum(by_y * along)),
+                            static_cast<double>(sum(value * slope)))};
 }
 
 WallDistance MeshField::at(const Vector3d& point_mm) const {

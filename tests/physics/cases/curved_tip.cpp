@@ -29,7 +29,7 @@ Checks curved_tip_at_a_wall() {
     sim::ChainProblem& problem = chain.problem;
     const contact::Wire seen{chain.line, problem.material, problem.shape};
     problem.contact.begin(seen, {});
-  problem.contact.place(seen, kTipRods - 1, wall, spec);
+    problem.contact.place(seen, kTipRods - 1, wall, spec);
     problem.contact.detect(seen, wall, spec);
     solve::Newton newton;
     const double failed = nan_unless_converged(newton.minimise(problem, statics_spec()));

@@ -287,10 +287,12 @@ INSTANTIATE_TEST_SUITE_P(
                  "s.toml: wall.max_deflection_mm is 0.5; must be between 0.01 and 0.18"},
         BadScene{"[simulation]", "[rods]\nadaptive = false\nrod_length_mm = 0.1\n[simulation]",
                  "s.toml: rods.rod_length_mm is 0.1; must be between 0.2 and 20"},
-        BadScene{"[simulation]", "[rods]\nrod_length_mm = 2\n[simulation]",
-                 "s.toml: rods.rod_length_mm is given for rods that adapt; must be given with adaptive = false"},
-        BadScene{"[simulation]", "[rods]\nadaptive = false\nshape_tolerance_mm = 0.1\n[simulation]",
-                 "s.toml: rods.shape_tolerance_mm is given for uniform rods; must be given with adaptive = true"},
+        BadScene{
+            "[simulation]", "[rods]\nrod_length_mm = 2\n[simulation]",
+            "s.toml: rods.rod_length_mm is given for rods that adapt; must be given with adaptive = false"},
+        BadScene{
+            "[simulation]", "[rods]\nadaptive = false\nshape_tolerance_mm = 0.1\n[simulation]",
+            "s.toml: rods.shape_tolerance_mm is given for uniform rods; must be given with adaptive = true"},
         BadScene{"[simulation]", "[rods]\nlongest_mm = 4\nshortest_mm = 5\n[simulation]",
                  "s.toml: rods.shortest_mm is 5; must be between 0.2 and 4"},
         BadScene{"[simulation]", "[rods]\nmax_turn_deg = 100\n[simulation]",

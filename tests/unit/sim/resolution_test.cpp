@@ -60,9 +60,7 @@ class BentWire : public testing::Test {
     return sum;
   }
 
-  [[nodiscard]] double length_mm(int rod) const {
-    return material_.length_mm[static_cast<std::size_t>(rod)];
-  }
+  [[nodiscard]] double length_mm(int rod) const { return material_.length_mm[static_cast<std::size_t>(rod)]; }
   [[nodiscard]] double turn_rad(int joint) const {
     const auto j = static_cast<std::size_t>(joint);
     return std::acos(std::min(1.0, shape_.frames[j].col(2).dot(shape_.frames[j - 1].col(2))));
