@@ -16,7 +16,7 @@ std::size_t at(int i) {
 constexpr int kMaxSamplesPerRod = 16;
 constexpr double kMinShare_mm = 0.25;
 /// A stretch whose clearance is larger touches nothing in the step: what the prediction may be off by.
-constexpr double kNear_mm = 0.05;
+constexpr double kNear_mm = 0.02;
 /// A stretch is even whose clearance differs by less from one end to the other, and in its middle from their mean.
 constexpr double kUneven_mm = 0.002;
 /// Longer stretches are looked at in quarters, so that a ridge beside their middle is seen.
@@ -56,6 +56,7 @@ class ContactSet::Placement {
       const Eigen::Vector3d middle =
           0.5 * (wire_.shape.joints_mm[at(rod_)] + wire_.shape.joints_mm[at(rod_ + 1)]);
       const int count = intervals(length, field_.lumen_radius_mm(middle), spec_);
+      bulge_ = 0.25 * length * length * (curvature_per_mm(rod_, rods) + curvature_per_mm(rod_ + 1, rods));
       Site from = look_at(0.0);
       for (int k = 0; k < count; ++k) {
         const Site to = look_at(static_cast<double>(k + 1) / count);
@@ -67,16 +68,26 @@ class ContactSet::Placement {
   }
 
  private:
+  /// A point of the curve that the rods stand for: that a straight rod touches a round wall with its ends only is no unevenness of the wall.
   struct Site {
     double fraction = 0.0;
     double arc_mm = 0.0;
     double clearance_mm = 0.0;
   };
 
+  /// Curvature vector at a joint; at the two ends that of their neighbour.
+  [[nodiscard]] Eigen::Vector3d curvature_per_mm(int joint, int rods) const {
+    const int j = std::clamp(joint, 1, std::max(1, rods - 1));
+    const auto& frames = wire_.shape.frames;
+    const double span = 0.5 * (wire_.material.length_mm[at(j - 1)] + wire_.material.length_mm[at(j)]);
+    return (frames[at(j - 1)].col(2) - frames[at(j)].col(2)) / span;
+  }
+
   [[nodiscard]] Site look_at(double fraction) const {
     const double arc = wire_.material.arc_mm[at(rod_)] + fraction * wire_.material.length_mm[at(rod_)];
-    const Eigen::Vector3d x =
-        (1.0 - fraction) * wire_.shape.joints_mm[at(rod_)] + fraction * wire_.shape.joints_mm[at(rod_ + 1)];
+    const Eigen::Vector3d x = (1.0 - fraction) * wire_.shape.joints_mm[at(rod_)] +
+                              fraction * wire_.shape.joints_mm[at(rod_ + 1)] -
+                              fraction * (1.0 - fraction) * bulge_;
     return {fraction, arc, field_.at(x).distance_mm - wire_.line.radius_mm(arc)};
   }
 
@@ -124,6 +135,8 @@ class ContactSet::Placement {
   const ContactSpec& spec_;
   std::vector<Sample>& samples_;
   int rod_ = 0;
+  Eigen::Vector3d bulge_ =
+      Eigen::Vector3d::Zero();  ///< four times the sagitta, towards the centre of curvature
   int rods_left_ = 0;
   double end_mm_ = 0.0;
 };
