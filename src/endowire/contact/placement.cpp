@@ -19,8 +19,8 @@ constexpr double kMinShare_mm = 0.25;
 constexpr double kNear_mm = 0.02;
 /// A stretch is even whose clearance differs by less from one end to the other, and in its middle from their mean.
 constexpr double kUneven_mm = 0.002;
-/// Longer stretches are looked at in quarters, so that a ridge beside their middle is seen.
-constexpr double kQuarters_mm = 1.0;
+/// Longer stretches that are even at both ends and in the middle are looked at in parts, so that a ridge beside these is seen.
+constexpr double kFlat_mm = 1.0;
 
 /// Intervals of a rod between samples: a power of two, so that samples persist when the lumen narrows.
 int intervals(double rod_length_mm, double lumen_radius_mm, const ContactSpec& spec) {
@@ -102,9 +102,31 @@ class ContactSet::Placement {
   }
 
   [[nodiscard]] static bool even(const Site& a, const Site& middle, const Site& b) {
-    if (std::min({a.clearance_mm, middle.clearance_mm, b.clearance_mm}) > kNear_mm) return true;
     return std::abs(a.clearance_mm - b.clearance_mm) < kUneven_mm &&
            std::abs(middle.clearance_mm - 0.5 * (a.clearance_mm + b.clearance_mm)) < kUneven_mm;
+  }
+
+  /// The nearest that a wall can be to a stretch whose ends are p and q off it: the height of a triangle with these three sides.
+  static double least_distance_mm(double p, double q, double length) {
+    const double foot = (length * length + p * p - q * q) / (2.0 * length);
+    if (foot <= 0.0 || foot >= length) return std::min(p, q);
+    return std::sqrt(std::max(0.0, p * p - foot * foot));
+  }
+
+  /// Whether a stretch comes near the wall somewhere where its clearance is not the same all along.
+  [[nodiscard]] bool touches_unevenly(const Site& a, const Site& b) const {
+    const double length = b.arc_mm - a.arc_mm;
+    if (length < 2.0 * kFinest_mm * (1.0 - 1e-9)) return false;
+    const double radius = wire_.line.radius_mm(a.arc_mm);
+    if (least_distance_mm(std::max(0.0, a.clearance_mm + radius), std::max(0.0, b.clearance_mm + radius),
+                          length) > radius + kNear_mm)
+      return false;
+    const double least = std::min(a.clearance_mm, b.clearance_mm);
+    const Site middle = look_at(0.5 * (a.fraction + b.fraction));
+    const bool flat = even(a, middle, b);
+    if (!flat && std::min(least, middle.clearance_mm) < kNear_mm) return true;
+    if (flat && length <= kFlat_mm) return false;
+    return touches_unevenly(a, middle) || touches_unevenly(middle, b);
   }
 
   /// There is always room for the samples that the lumen asks for, to the end of the wire.
@@ -114,17 +136,8 @@ class ContactSet::Placement {
   }
 
   void divide(const Site& a, const Site& b) {
-    const double length = b.arc_mm - a.arc_mm;
-    if (length < 2.0 * kFinest_mm * (1.0 - 1e-9)) return;
-    // The clearance changes by no more than the arc does.
-    if (a.clearance_mm + b.clearance_mm > length + 2.0 * kNear_mm) return;
+    if (!touches_unevenly(a, b) || !has_room()) return;
     const Site middle = look_at(0.5 * (a.fraction + b.fraction));
-    bool leave = even(a, middle, b);
-    if (leave && length > kQuarters_mm) {
-      leave = even(a, look_at(0.5 * (a.fraction + middle.fraction)), middle) &&
-              even(middle, look_at(0.5 * (middle.fraction + b.fraction)), b);
-    }
-    if (leave || !has_room()) return;
     divide(a, middle);
     put(middle);
     divide(middle, b);

@@ -37,7 +37,7 @@ constexpr double kCheck_mm = 0.05;
 /// Longest motion of a joint in one Newton iteration: local walls are believed about as far.
 constexpr double kMaxStep_mm = 0.7;
 /// Detections within one sub-step: a snap crosses the lumen in pieces of kRegion_mm.
-constexpr int kMaxDetections = 100;
+constexpr int kMaxDetections = 400;
 /// Corrections of touching walls within one sub-step: where the field has an edge, they need not come to rest.
 constexpr int kMaxCorrections = 12;
 /// From this one on the field's own error is allowed.
