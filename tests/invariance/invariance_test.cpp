@@ -93,7 +93,7 @@ TEST(RigidMotion, ChangesNothing) {
   }
 }
 
-// Statics without friction has no history: steps of half and a quarter the size end in the same shape.
+// Statics without friction has no history: steps of a tenth of a millimetre to two end in the same shape.
 TEST(StepSize, DoesNotMatterWithoutFriction) {
   Procedure run;
   run.wire = test::curved_tip_wire(0.0);
@@ -102,7 +102,7 @@ TEST(StepSize, DoesNotMatterWithoutFriction) {
   run.settling = 1;
   run.spec.solver.rods.adaptive = false;  // on one grid of rods: which ones there are may depend on the way
   std::vector<Outcome> outcomes;
-  for (const double advance : {1.0, 0.5, 0.25}) {
+  for (const double advance : {2.0, 1.0, 0.5, 0.25, 0.1}) {
     run.spec.max_advance_mm = advance;
     outcomes.push_back(run());
   }
@@ -111,6 +111,35 @@ TEST(StepSize, DoesNotMatterWithoutFriction) {
     EXPECT_LT(test::shape_difference_mm(o.state, outcomes[0].state), 2e-3);
     EXPECT_LT(relative(o.push_n, outcomes[0].push_n), 0.01);
   }
+}
+
+// With friction the way counts, and steps of finite size follow it to first order: half the step, half the error. Breaks when a step
+// forgets or invents friction of its own.
+TEST(StepSize, ConvergesWithFriction) {
+  Procedure run;
+  run.wire = test::curved_tip_wire(0.1);
+  run.spec.solver.rods.adaptive = false;
+  run.steps = 15;  // no joint is about to enter then
+  run.command = {5.0, 0.2};
+  std::vector<Outcome> outcomes;
+  std::vector<double> peaks;
+  const std::vector<double> advances{2.0, 1.0, 0.5, 0.1};
+  for (const double advance : advances) {
+    run.spec.max_advance_mm = advance;
+    outcomes.push_back(run());
+    peaks.push_back(outcomes.back().push_n);
+  }
+  std::vector<double> shape, push;
+  for (std::size_t i = 0; i + 1 < outcomes.size(); ++i) {
+    shape.push_back(test::shape_difference_mm(outcomes[i].state, outcomes.back().state));
+    push.push_back(relative(peaks[i], peaks.back()));
+    std::printf("  steps of %.1f against 0.1 mm: %.4f mm, push %.4f %%\n", advances[i], shape[i],
+                100.0 * push[i]);
+  }
+  EXPECT_LT(shape[2], 0.2);
+  EXPECT_LT(push[2], 0.05);
+  EXPECT_LT(shape[2], 0.75 * shape[1] + 1e-3);
+  EXPECT_LT(shape[1], 0.75 * shape[0] + 1e-3);
 }
 
 struct Parameter {
