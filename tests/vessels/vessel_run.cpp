@@ -155,8 +155,8 @@ std::string RunFigures::crossings_text() const {
 
 void expect_all_that_must_hold(const RunFigures& run) {
   EXPECT_EQ(run.converged, run.steps) << run.first_failure;
-  EXPECT_LE(run.split, 0.02 * run.substeps);
-  EXPECT_LE(run.on_edges, 0.05 * run.substeps) << "walls swing";
+  EXPECT_LE(run.split, 0.02 * run.steps);
+  EXPECT_LE(run.on_edges, 0.02 * run.substeps) << "walls swing";
   EXPECT_LE(run.calm_detections, 1.05 * run.calm_substeps);
   ASSERT_TRUE(run.verdict.is_object()) << "check_crossings gave no verdict";
   EXPECT_EQ(run.verdict["steps"], run.recorded);
