@@ -122,29 +122,27 @@ RodChanges Resolution::adapt(rod::ChainMaterial& material, rod::ChainShape& shap
   RodChanges changes;
   if (!spec_.adaptive) return changes;
   measure(material, shape);
-  const double before_mj = rod::chain_energy(material, shape);
-  double energy_mj = before_mj;
-  const auto count = [&] {
-    const double now_mj = rod::chain_energy(material, shape);
-    changes.energy_mj += std::abs(now_mj - energy_mj);
-    energy_mj = now_mj;
-  };
+  double energy_mj = -1.0;  // not known until something changes: in most steps nothing does
   // From the hand to the tip: what is still to come keeps its number. The rod that enters is not touched, nor the joint before it.
   for (int i = shape.rods() - 3; i >= 0 && changes.energy_mj <= spec_.budget_mj; --i) {
     const double length = material.arc_mm[at(i + 1)] - material.arc_mm[at(i)];
-    if (length > wanted_mm_[at(i)] && length > 1.5 * smallest_mm_) {
+    const bool divide = length > wanted_mm_[at(i)] && length > 1.5 * smallest_mm_;
+    const bool join = !divide && i > 0 && cell_of_two(material, i) &&
+                      2.0 * length < kJoin * std::min(wanted_mm_[at(i)], wanted_mm_[at(i - 1)]);
+    if (!divide && !join) continue;
+    if (energy_mj < 0.0) energy_mj = rod::chain_energy(material, shape);
+    if (divide) {
       rod::divide_rod(material, shape, i, material.arc_mm[at(i)] + 0.5 * length);
       wire_.fill(i, i + 2, material);
       ++changes.divided;
-    } else if (i > 0 && cell_of_two(material, i) &&
-               2.0 * length < kJoin * std::min(wanted_mm_[at(i)], wanted_mm_[at(i - 1)])) {
+    } else {
       rod::join_rods(material, shape, i);
       wire_.fill(i - 1, i, material);
       ++changes.joined;
-    } else {
-      continue;
     }
-    count();
+    const double now_mj = rod::chain_energy(material, shape);
+    changes.energy_mj += std::abs(now_mj - energy_mj);
+    energy_mj = now_mj;
     --i;  // its neighbour waits for the next step
   }
   return changes;

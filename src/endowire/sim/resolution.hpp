@@ -19,10 +19,11 @@ struct RodChanges {
 ///
 ///   h = min( √(8ε/κ),  φ_m/κ,  β_m/κ₀,  D·n )       κ curvature of the wire, κ₀ at rest, D diameter of the lumen
 ///
-/// ε is the sagitta of a rod on a curve: what a shape loses by being made of rods. κ is the largest within kLookAhead_mm along the wire to both
-/// sides, so that rods are short before they come to a bend and until they have left it; from there on h grows by kGrowth per length.
+/// ε is the sagitta of a rod on a curve: what a shape loses by being made of rods. κ is the largest within 8 mm along the wire to both sides, at
+/// the tip also that of the vessel ahead, so that rods are short before they come to a bend and until they have left it; from there on h grows by half
+/// the way.
 /// Rods are cells of a binary grid of the material, longest_mm · 2⁻ᵏ from the tip on: they come and go in the same places. A rod longer than h is
-/// halved; two halves of a cell are joined when the whole is shorter than kJoin·h, which is the hysteresis. Neighbours do not change in one step.
+/// halved; two halves of a cell are joined when the whole is shorter than 0.7 h, which is the hysteresis. Neighbours do not change in one step.
 /// Source  criteria after [Wang2015], which divides rods by the diameter of the vessel and their angle; sagitta, cells and hysteresis are ours
 class Resolution {
  public:

@@ -153,6 +153,7 @@ Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrume
 
   const double gravity_m_per_s2 = spec_.gravity_m_per_s2.norm();
   const rod::ImmersedWire immersed{&line_, gravity_m_per_s2, spec_.blood_density_g_per_mm3};
+  solver.rods.validate("solver.rods");
   resolution_ = Resolution(solver.rods, immersed, *field_);
   sheath_ = Sheath(immersed, access_, resolution_);
   problem_.line = &line_;

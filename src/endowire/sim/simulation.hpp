@@ -48,7 +48,8 @@ struct StepReport {
 /// No globals, no I/O, no threads. The state is a value: copy it, compare it, put it back.
 class Simulation {
  public:
-  /// @throws base::InputError when the access lies outside the lumen, or the wire is wider than it there.
+  /// @throws base::InputError when the access lies outside the lumen, the wire is wider than it there, or a number of spec.solver.rods is out of its
+  /// range.
   Simulation(std::shared_ptr<const vessel::Field> field, rod::Instrument instrument, Access access,
              SimulationSpec spec);
   ~Simulation();

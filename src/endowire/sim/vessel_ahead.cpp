@@ -2,27 +2,15 @@
 
 #include <algorithm>
 
+#include "endowire/contact/detect.hpp"
+
 namespace endowire::sim {
 
 namespace {
 
 constexpr double kSight_mm = 60.0;
-constexpr double kAtWall_mm = 0.05;
-constexpr double kLeastStep_mm = 0.1;
 /// A direction that is steeper to the wall tells nothing of where the vessel goes.
 constexpr double kLeastAlong = 0.2;
-
-/// How far it is straight on to the wall: the distance to the wall is a step that passes none.
-double sight_mm(const vessel::Field& field, const Eigen::Vector3d& from_mm,
-                const Eigen::Vector3d& direction) {
-  double seen = 0.0;
-  while (seen < kSight_mm) {
-    const double distance = field.at(from_mm + seen * direction).distance_mm;
-    if (distance < kAtWall_mm) break;
-    seen += std::max(distance, kLeastStep_mm);
-  }
-  return seen;
-}
 
 }  // namespace
 
@@ -39,8 +27,9 @@ double vessel_curvature_ahead_per_mm(const vessel::Field& field, const Eigen::Ve
     along -= inward * inward.dot(direction);
   }
   if (along.norm() < kLeastAlong) return 1.0 / radius;
-  const double sight = sight_mm(field, middle, along.normalized());
-  if (sight >= kSight_mm) return 0.0;
+  const Eigen::Vector3d end = middle + kSight_mm * along.normalized();
+  const double sight = (contact::reachable_point_mm(field, middle, end) - middle).norm();
+  if (sight > kSight_mm * (1.0 - 1e-9)) return 0.0;
   const double squares = sight * sight - radius * radius;
   return squares > 0.0 ? std::min(1.0 / radius, 2.0 * radius / squares) : 1.0 / radius;
 }
