@@ -294,6 +294,7 @@ SolveReport Newton::minimise(Problem& problem, const NewtonSpec& spec) {
       if (validity == Validity::hopeless) return end(Termination::left_domain);
       settled = false;
       if (validity == Validity::changed) start_anew();
+      if (validity == Validity::corrected) since_change = 0;  // another problem, but nearly solved
       continue;
     }
     if (since_change >= spec.max_iterations) return end(Termination::iteration_limit);
@@ -324,6 +325,7 @@ SolveReport Newton::minimise(Problem& problem, const NewtonSpec& spec) {
       unchecked_mm = 0.0;
       if (validity != Validity::holds) settled = false;
       if (validity == Validity::changed) start_anew();
+      if (validity == Validity::corrected) since_change = 0;
     }
   }
 }
