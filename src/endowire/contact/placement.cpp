@@ -1,9 +1,9 @@
 // Where the samples of a step lie on the wire.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "endowire/contact/contact_set.hpp"
-#include "endowire/contact/put_sample.hpp"
 
 namespace endowire::contact {
 
@@ -32,15 +32,6 @@ int intervals(double rod_length_mm, double lumen_radius_mm, const ContactSpec& s
 
 }  // namespace
 
-void put_at(const rod::MaterialLine& line, const rod::ChainMaterial& material, double arc_mm, Sample& s) {
-  while (s.rod > 0 && arc_mm < material.arc_mm[at(s.rod)]) --s.rod;
-  while (s.rod + 2 < material.rods() && arc_mm >= material.arc_mm[at(s.rod + 1)]) ++s.rod;
-  s.arc_mm = arc_mm;
-  s.fraction = (arc_mm - material.arc_mm[at(s.rod)]) / material.length_mm[at(s.rod)];
-  s.radius_mm = line.radius_mm(arc_mm);
-  s.friction = line.friction(arc_mm);
-}
-
 /// Walks along the wire and puts samples where they are needed.
 class ContactSet::Placement {
  public:
@@ -59,10 +50,12 @@ class ContactSet::Placement {
       bulge_ = 0.25 * length * length * (curvature_per_mm(rod_, rods) + curvature_per_mm(rod_ + 1, rods));
       Site from = look_at(0.0);
       for (int k = 0; k < count; ++k) {
-        const Site to = look_at(static_cast<double>(k + 1) / count);
-        put(from);
-        divide(from, to);
-        from = to;
+        known_.fill(false);
+        remember(0, from);
+        from = look_at(static_cast<double>(k + 1) / count);
+        remember(kParts, from);
+        put(sites_[0]);
+        divide(0, kParts);
       }
     }
   }
@@ -81,6 +74,20 @@ class ContactSet::Placement {
     const auto& frames = wire_.shape.frames;
     const double span = 0.5 * (wire_.material.length_mm[at(j - 1)] + wire_.material.length_mm[at(j)]);
     return (frames[at(j - 1)].col(2) - frames[at(j)].col(2)) / span;
+  }
+
+  void remember(int part, const Site& site) {
+    sites_[at(part)] = site;
+    known_[at(part)] = true;
+  }
+
+  /// A site of the present stretch, looked at once.
+  const Site& site(int part) {
+    if (!known_[at(part)]) {
+      const double share = static_cast<double>(part) / kParts;
+      remember(part, look_at(sites_[0].fraction + share * (sites_[kParts].fraction - sites_[0].fraction)));
+    }
+    return sites_[at(part)];
   }
 
   [[nodiscard]] Site look_at(double fraction) const {
@@ -113,20 +120,22 @@ class ContactSet::Placement {
     return std::sqrt(std::max(0.0, p * p - foot * foot));
   }
 
-  /// Whether a stretch comes near the wall somewhere where its clearance is not the same all along.
-  [[nodiscard]] bool touches_unevenly(const Site& a, const Site& b) const {
+  /// Whether the wire comes near the wall between two sites and its clearance there is not the same all along.
+  [[nodiscard]] bool touches_unevenly(int from, int to) {
+    const Site& a = site(from);
+    const Site& b = site(to);
     const double length = b.arc_mm - a.arc_mm;
-    if (length < 2.0 * kFinest_mm * (1.0 - 1e-9)) return false;
+    if (to - from < 2 || length < 2.0 * kFinest_mm * (1.0 - 1e-9)) return false;
     const double radius = wire_.line.radius_mm(a.arc_mm);
     if (least_distance_mm(std::max(0.0, a.clearance_mm + radius), std::max(0.0, b.clearance_mm + radius),
                           length) > radius + kNear_mm)
       return false;
-    const double least = std::min(a.clearance_mm, b.clearance_mm);
-    const Site middle = look_at(0.5 * (a.fraction + b.fraction));
+    const int half = (from + to) / 2;
+    const Site& middle = site(half);
     const bool flat = even(a, middle, b);
-    if (!flat && std::min(least, middle.clearance_mm) < kNear_mm) return true;
+    if (!flat && std::min({a.clearance_mm, middle.clearance_mm, b.clearance_mm}) < kNear_mm) return true;
     if (flat && length <= kFlat_mm) return false;
-    return touches_unevenly(a, middle) || touches_unevenly(middle, b);
+    return touches_unevenly(from, half) || touches_unevenly(half, to);
   }
 
   /// There is always room for the samples that the lumen asks for, to the end of the wire.
@@ -135,18 +144,23 @@ class ContactSet::Placement {
     return static_cast<double>(samples_.size()) + most + 2.0 < static_cast<double>(samples_.capacity());
   }
 
-  void divide(const Site& a, const Site& b) {
-    if (!touches_unevenly(a, b) || !has_room()) return;
-    const Site middle = look_at(0.5 * (a.fraction + b.fraction));
-    divide(a, middle);
-    put(middle);
-    divide(middle, b);
+  void divide(int from, int to) {
+    if (!touches_unevenly(from, to) || !has_room()) return;
+    const int half = (from + to) / 2;
+    divide(from, half);
+    put(site(half));
+    divide(half, to);
   }
+
+  /// Parts that a stretch may have: with the longest, 64 mm of rod in sixteen stretches, no more than half of kFinest_mm each.
+  static constexpr int kParts = 64;
 
   const Wire& wire_;
   const vessel::Field& field_;
   const ContactSpec& spec_;
   std::vector<Sample>& samples_;
+  std::array<Site, kParts + 1> sites_;
+  std::array<bool, kParts + 1> known_{};
   int rod_ = 0;
   Eigen::Vector3d bulge_ =
       Eigen::Vector3d::Zero();  ///< four times the sagitta, towards the centre of curvature
