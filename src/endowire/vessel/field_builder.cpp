@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::uint64_t algorithm_version = 1;   // part of the key: old caches die with a change of results
+constexpr std::uint64_t algorithm_version = 2;   // part of the key: old caches die with a change of results
 constexpr double max_spacing_mm = 3.2;           // in the middle of wide lumens
 constexpr double base_spacing_limit_mm = 1.6;    // near walls; what error_target_mm needs comes on top
 constexpr double base_cells_per_radius = 2.5;    // so that every lumen is seen at all
@@ -328,14 +328,15 @@ class MeshFieldBuilder {
   /// Largest error over tolerance at test points in the cells of the brick at hand. Only cells in which the
   /// tangent planes of the corners disagree are tested: elsewhere the distance is as good as linear.
   double excess_of_tests(std::size_t index, const Cell& cell) {
-    const MeshField::Place place{-1, origin_mm(cell), size_mm(cell)};
-    const double spacing = place.size_mm / MeshField::cells;
+    const Vector3d origin = origin_mm(cell);
+    const double per_mm = 1.0 / size_mm(cell);
+    const double spacing = size_mm(cell) / MeshField::cells;
     const Vector3d half = Vector3d::Constant(0.5 * spacing);
     for (int i = 0; i < MeshField::nodes; ++i)
       for (int j = 0; j < MeshField::nodes; ++j)
         for (int k = 0; k < MeshField::nodes; ++k) {
           const std::size_t n = node(i, j, k);
-          const Vector3d p = place.origin_mm + spacing * Vector3d(i, j, k);
+          const Vector3d p = origin + spacing * Vector3d(i, j, k);
           slope_[n] = std::abs(distance_[n]) > 1e-9
                           ? Vector3d((p - nearest_[n]) / distance_[n])
                           : Vector3d(-surface_.normal(static_cast<std::size_t>(triangle_[n])));
@@ -347,8 +348,8 @@ class MeshFieldBuilder {
     const auto test = [&](const Vector3d& p) {
       const double truth = exact(p).distance_mm;
       if (truth < -parameters_.band_outside_mm) return;
-      const double error =
-          std::abs(std::abs(field_.interpolate(index, p, place).distance_mm) - std::abs(truth));
+      const double found = field_.interpolate(index, {-1, true, per_mm * (p - origin), per_mm}).distance_mm;
+      const double error = std::abs(std::abs(found) - std::abs(truth));
       excess = std::max(excess, error / tolerance_mm(truth));
     };
     for (int i = 0; i < MeshField::cells; ++i)
@@ -371,7 +372,7 @@ class MeshFieldBuilder {
           if (high - low <= screen_fraction * tolerance_mm(middle) ||
               high < -parameters_.band_outside_mm - spacing)
             continue;
-          const Vector3d corner = place.origin_mm + spacing * Vector3d(i, j, k);
+          const Vector3d corner = origin + spacing * Vector3d(i, j, k);
           test(corner + half);
           // A crease in a large cell is easily missed; deep in the lumen little depends on it.
           const int random_tests = std::abs(middle) > deep_mm ? 0
@@ -414,7 +415,7 @@ class MeshFieldBuilder {
     std::vector<std::pair<std::size_t, double>> missed;
     for (const FieldProbe& probe : probes(scout_points, scout_seed)) {
       const double excess = probe.error_mm / parameters_.error_target_mm;
-      const MeshField::Reference r = field_.find(probe.point_mm).reference;
+      const MeshField::Reference r = field_.reference_at(probe.point_mm);
       if (excess > 1.0 && !MeshField::is_far(r)) missed.emplace_back(MeshField::index_of(r), excess);
     }
     std::sort(missed.begin(), missed.end(), [](const auto& a, const auto& b) {

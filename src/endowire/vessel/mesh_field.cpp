@@ -2,42 +2,52 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace endowire::vessel {
 namespace {
 
 using Eigen::Vector3d;
 
-/// Weights of the four nodes from `start` on for value and slope [per cell] of the Catmull–Rom interpolant in
-/// cell `cell` at fraction f. In the first and last cell the missing neighbour is 3 n₀ − 3 n₁ + n₂.
+/// Four numbers at a time, in one instruction where there is one; the same bits where there is none.
+using Row [[gnu::vector_size(16)]] = float;
+
+/// Weights of four neighbouring nodes as cubics of the fraction f in a cell: row k is the factor of fᵏ.
+using Cubics = std::array<Row, 4>;
+constexpr Cubics inner_cell = {{{0.0F, 1.0F, 0.0F, 0.0F},
+                                {-0.5F, 0.0F, 0.5F, 0.0F},
+                                {1.0F, -2.5F, 2.0F, -0.5F},
+                                {-0.5F, 1.5F, -1.5F, 0.5F}}};
+/// In the first and the last cell of a brick, whose missing neighbour is 3 n₀ − 3 n₁ + n₂.
+constexpr Cubics first_cell = {
+    {{1.0F, 0.0F, 0.0F, 0.0F}, {-1.5F, 2.0F, -0.5F, 0.0F}, {0.5F, -1.0F, 0.5F, 0.0F}, {}}};
+constexpr Cubics last_cell = {
+    {{0.0F, 0.0F, 1.0F, 0.0F}, {0.0F, -0.5F, 0.0F, 0.5F}, {0.0F, 0.5F, -1.0F, 0.5F}, {}}};
+constexpr std::array<Cubics, MeshField::cells> cubics_of_cell = {first_cell, inner_cell, inner_cell,
+                                                                 last_cell};
+
+/// Weights of the four nodes from `start` on for value and slope [per cell] of the Catmull–Rom interpolant, u cells into a brick.
 struct Stencil {
   int start;
-  std::array<float, 4> value;
-  std::array<float, 4> slope;
+  Row value;
+  Row slope;
 };
 
-Stencil stencil_at(double u) {
-  const int cell = std::clamp(static_cast<int>(u), 0, MeshField::cells - 1);
+[[gnu::always_inline]] inline Stencil stencil_at(double u) {
+  const int cell = u > 0.0 ? static_cast<int>(std::min(u, MeshField::cells - 1.0)) : 0;
   const auto f = static_cast<float>(std::clamp(u - cell, 0.0, 1.0));
-  const std::array<float, 4> w{0.5F * ((2.0F - f) * f - 1.0F) * f, 0.5F * ((3.0F * f - 5.0F) * f * f + 2.0F),
-                               0.5F * ((4.0F - 3.0F * f) * f + 1.0F) * f, 0.5F * (f - 1.0F) * f * f};
-  const std::array<float, 4> d{0.5F * ((4.0F - 3.0F * f) * f - 1.0F), 0.5F * (9.0F * f - 10.0F) * f,
-                               0.5F * ((8.0F - 9.0F * f) * f + 1.0F), 0.5F * (3.0F * f - 2.0F) * f};
-  const auto first = [](const std::array<float, 4>& a) {
-    return std::array<float, 4>{a[1] + 3.0F * a[0], a[2] - 3.0F * a[0], a[3] + a[0], 0.0F};
-  };
-  const auto last = [](const std::array<float, 4>& a) {
-    return std::array<float, 4>{0.0F, a[0] + a[3], a[1] - 3.0F * a[3], a[2] + 3.0F * a[3]};
-  };
-  if (cell == 0) return {0, first(w), first(d)};
-  if (cell == MeshField::cells - 1) return {MeshField::cells - 3, last(w), last(d)};
-  return {cell - 1, w, d};
+  const Cubics& cubics = cubics_of_cell[static_cast<std::size_t>(cell)];
+  return {std::clamp(cell - 1, 0, MeshField::nodes - 4),
+          cubics[0] + f * (cubics[1] + f * (cubics[2] + f * cubics[3])),
+          cubics[1] + f * (2.0F * cubics[2] + 3.0F * f * cubics[3])};
 }
 
-using Row = Eigen::Array4f;
-
 Row row_at(const std::uint16_t* nodes) {
-  return Eigen::Map<const Eigen::Array<std::uint16_t, 4, 1>>(nodes).cast<float>();
+  using Codes [[gnu::vector_size(8)]] = std::uint16_t;
+  using Integers [[gnu::vector_size(16)]] = std::int32_t;
+  Codes codes;
+  std::memcpy(&codes, nodes, sizeof(codes));
+  return __builtin_convertvector(__builtin_convertvector(codes, Integers), Row);
 }
 
 /// In one order on every machine.
@@ -66,14 +76,16 @@ Eigen::AlignedBox3d MeshField::box_mm() const {
   return {origin_mm_, origin_mm_ + size};
 }
 
-MeshField::Place MeshField::find(const Vector3d& point_mm) const {
-  const double finest = root_mm_ / static_cast<double>(1 << levels_);
+[[gnu::always_inline]] inline MeshField::Place MeshField::find(const Vector3d& point_mm) const {
+  const double finest_per_mm = static_cast<double>(1 << levels_) / root_mm_;
+  const Vector3d finest = finest_per_mm * (point_mm - origin_mm_);
   std::array<std::int32_t, 3> at{};
+  bool inside = true;
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto axis = static_cast<Eigen::Index>(k);
     const std::int32_t end = roots_along_[k] << levels_;
-    const double cell = (point_mm[axis] - origin_mm_[axis]) / finest;
-    at[k] = cell < 0.0 ? 0 : cell >= end ? end - 1 : static_cast<std::int32_t>(cell);
+    const double cell = finest[static_cast<Eigen::Index>(k)];
+    inside = inside && cell >= 0.0 && cell <= end;
+    at[k] = cell > 0.0 ? static_cast<std::int32_t>(std::min(cell, static_cast<double>(end - 1))) : 0;
   }
   std::int32_t level = levels_;
   Reference reference =
@@ -87,28 +99,27 @@ MeshField::Place MeshField::find(const Vector3d& point_mm) const {
                                                  (((at[2] >> level) & 1) << 2));
     reference = children_[static_cast<std::size_t>(reference)][octant];
   }
+  const double per_finest = 1.0 / static_cast<double>(1 << level);  // exact
   const Vector3d corner(static_cast<double>((at[0] >> level) << level),
                         static_cast<double>((at[1] >> level) << level),
                         static_cast<double>((at[2] >> level) << level));
-  return {reference, origin_mm_ + finest * corner, finest * static_cast<double>(1 << level)};
+  return {reference, inside, per_finest * (finest - corner), per_finest * finest_per_mm};
 }
 
-WallDistance MeshField::interpolate(std::size_t brick, const Vector3d& point_mm, const Place& place) const {
-  const double per_mm = cells / place.size_mm;
-  const Vector3d u = per_mm * (point_mm - place.origin_mm);
-  const Stencil sx = stencil_at(u.x());
-  const Stencil sy = stencil_at(u.y());
-  const Stencil sz = stencil_at(u.z());
+WallDistance MeshField::interpolate(std::size_t brick, const Place& place) const {
+  const Stencil sx = stencil_at(cells * place.fraction.x());
+  const Stencil sy = stencil_at(cells * place.fraction.y());
+  const Stencil sz = stencil_at(cells * place.fraction.z());
   const std::uint16_t* corner =
       samples_.data() + brick * samples_per_brick + (sx.start * nodes + sy.start) * nodes + sz.start;
   // Four nodes along z at a time; what is summed over y and x first costs nothing along z.
-  Row value = Row::Zero();
-  Row by_x = Row::Zero();
-  Row by_y = Row::Zero();
-  for (std::size_t i = 0; i < 4; ++i) {
-    Row v = Row::Zero();
-    Row dy = Row::Zero();
-    for (std::size_t j = 0; j < 4; ++j) {
+  Row value{};
+  Row by_x{};
+  Row by_y{};
+  for (int i = 0; i < 4; ++i) {
+    Row v{};
+    Row dy{};
+    for (int j = 0; j < 4; ++j) {
       const Row nodes_along_z = row_at(corner + (i * nodes + j) * nodes);
       v += sy.value[j] * nodes_along_z;
       dy += sy.slope[j] * nodes_along_z;
@@ -117,23 +128,21 @@ WallDistance MeshField::interpolate(std::size_t brick, const Vector3d& point_mm,
     by_x += sx.slope[i] * v;
     by_y += sx.value[i] * dy;
   }
-  const Row along(sz.value.data());
-  const Row slope(sz.slope.data());
   const Brick& b = bricks_[brick];
   const auto step = static_cast<double>(b.step_mm);
-  const double slope_unit = step * per_mm;
-  return {
-      static_cast<double>(b.low_mm) + step * static_cast<double>(sum(value * along)),
-      slope_unit * Vector3d(static_cast<double>(sum(by_x * along)), static_cast<double>(sum(by_y * along)),
-                            static_cast<double>(sum(value * slope)))};
+  const double slope_unit = step * cells * place.per_mm;
+  return {static_cast<double>(b.low_mm) + step * static_cast<double>(sum(value * sz.value)),
+          slope_unit * Vector3d(static_cast<double>(sum(by_x * sz.value)),
+                                static_cast<double>(sum(by_y * sz.value)),
+                                static_cast<double>(sum(value * sz.slope)))};
 }
 
 WallDistance MeshField::at(const Vector3d& point_mm) const {
   const Place place = find(point_mm);
   const std::size_t index = index_of(place.reference);
-  const Eigen::AlignedBox3d box = box_mm();
-  if (!is_far(place.reference) && box.contains(point_mm)) return interpolate(index, point_mm, place);
+  if (!is_far(place.reference) && place.inside) return interpolate(index, place);
   // Deep in the wall, or off the box: never nearer than the band, pointing back.
+  const Eigen::AlignedBox3d box = box_mm();
   const Vector3d inside = point_mm.cwiseMax(box.min()).cwiseMin(box.max());
   const Vector3d back = inside - point_mm;
   WallDistance result;
@@ -141,26 +150,29 @@ WallDistance MeshField::at(const Vector3d& point_mm) const {
     const FarCell& cell = far_[index];
     result.gradient = Vector3d(static_cast<double>(cell.gradient[0]), static_cast<double>(cell.gradient[1]),
                                static_cast<double>(cell.gradient[2]));
-    const Vector3d centre = place.origin_mm + Vector3d::Constant(0.5 * place.size_mm);
-    result.distance_mm = static_cast<double>(cell.distance_mm) + result.gradient.dot(inside - centre);
+    const Vector3d from_centre = (place.fraction - Vector3d::Constant(0.5)) / place.per_mm + back;
+    result.distance_mm = static_cast<double>(cell.distance_mm) + result.gradient.dot(from_centre);
   } else {
-    result = interpolate(index, inside, place);
+    result = interpolate(index, place);
   }
   result.distance_mm = std::min(result.distance_mm, -band_mm_) - back.norm();
   if (!back.isZero()) result.gradient = back.stableNormalized();
   return result;
 }
 
+MeshField::Reference MeshField::reference_at(const Vector3d& point_mm) const {
+  return find(point_mm).reference;
+}
+
 double MeshField::lumen_radius_mm(const Vector3d& point_mm) const {
   const Place place = find(point_mm);
   if (is_far(place.reference)) return static_cast<double>(far_[index_of(place.reference)].radius_mm);
-  const Vector3d f =
-      ((point_mm - place.origin_mm) / place.size_mm).cwiseMax(Vector3d::Zero()).cwiseMin(Vector3d::Ones());
+  const Vector3d f = place.fraction.cwiseMax(Vector3d::Zero()).cwiseMin(Vector3d::Ones());
   return decode_radius_mm(trilinear(bricks_[index_of(place.reference)].radius_code, f));
 }
 
 double MeshField::tissue_to_next_lumen_mm(const Vector3d& point_mm) const {
-  const Reference reference = find(point_mm).reference;
+  const Reference reference = reference_at(point_mm);
   return static_cast<double>(is_far(reference) ? far_[index_of(reference)].tissue_mm
                                                : bricks_[index_of(reference)].tissue_mm);
 }
@@ -189,7 +201,7 @@ int MeshField::exit_at(const Vector3d& point_mm) const {
 
 double MeshField::spacing_mm(const Vector3d& point_mm) const {
   const Place place = find(point_mm);
-  return is_far(place.reference) ? std::numeric_limits<double>::infinity() : place.size_mm / cells;
+  return is_far(place.reference) ? std::numeric_limits<double>::infinity() : 1.0 / (cells * place.per_mm);
 }
 
 }  // namespace endowire::vessel

@@ -111,14 +111,16 @@ class MeshField final : public Field {
   };
   struct Place {
     Reference reference;
-    Eigen::Vector3d origin_mm;  ///< lowest corner of the cell
-    double size_mm;             ///< of the cell
+    bool inside;               ///< the box
+    Eigen::Vector3d fraction;  ///< of the cell, from its lowest corner; within 0 … 1 inside the box
+    double per_mm;             ///< cells
   };
 
   MeshField() = default;
-  [[nodiscard]] Place find(const Eigen::Vector3d& point_mm) const;
-  [[nodiscard]] WallDistance interpolate(std::size_t brick, const Eigen::Vector3d& point_mm,
-                                         const Place& place) const;
+  [[nodiscard]] Reference reference_at(const Eigen::Vector3d& point_mm) const;
+  [[nodiscard]] inline Place find(const Eigen::Vector3d& point_mm) const;
+  /// @param place  as find() gives it, or of a cell that is being built; stencils clamp it to the cell
+  [[nodiscard]] WallDistance interpolate(std::size_t brick, const Place& place) const;
   [[nodiscard]] Eigen::AlignedBox3d box_mm() const;
   void validate(const std::string& label) const;
 
