@@ -223,9 +223,9 @@ void ChainProblem::measure_scales() {
   }
   for (int j = 1; j < n; ++j) {
     const rod::JointMaterial& joint = material.joints[at(j)];
-    const double angle =
-        std::acos(std::clamp(shape.frames[at(j)].col(2).dot(shape.frames[at(j - 1)].col(2)), -1.0, 1.0));
-    const double bend = joint.bend_n_mm2.maxCoeff() * (angle + joint.rest_bend_rad.norm()) / joint.span_mm;
+    const double chord =
+        (shape.frames[at(j)].col(2) - shape.frames[at(j - 1)].col(2)).norm();  // of the angle
+    const double bend = joint.bend_n_mm2.maxCoeff() * (chord + joint.rest_bend_rad.norm()) / joint.span_mm;
     const double twist =
         joint.twist_n_mm2 * std::abs(shape.twist_rad[at(j)] - joint.rest_twist_rad) / joint.span_mm;
     scales_.moment_n_mm = std::max({scales_.moment_n_mm, bend, twist});

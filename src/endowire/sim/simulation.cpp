@@ -359,7 +359,6 @@ bool Simulation::Impl::settle() {
   contact::ContactSet& contact = problem_.contact;
   contact.detect(wire(), *field_, contact_spec_);
   report_.detections += 1.0;
-  if (contact.add_over_ridges(wire(), *field_) > 0) redetect();
   rounds_ = corrections_ = 0;
   report_.solve = newton_.minimise(problem_, newton_spec_);
   report_.newton_iterations += report_.solve.iterations;

@@ -77,12 +77,16 @@ int Newton::inertia(Problem& problem) {
 /// Sets matrix_ and model_gradient_ at direction_; returns the value of the model there.
 ContactPart Newton::model_at_direction(Problem& problem, double lambda, ContactHessian kind) {
   matrix_ = hessian_;
-  hessian_.multiply(direction_, product_);
   double value = 0.0;
-  for (std::size_t i = 0; i < direction_.size(); ++i) {
-    const double pull = product_[i] + lambda * direction_[i];
-    value += direction_[i] * (gradient_[i] + 0.5 * pull);
-    model_gradient_[i] = gradient_[i] + pull;
+  if (std::all_of(direction_.begin(), direction_.end(), [](double d) { return d == 0.0; })) {
+    model_gradient_ = gradient_;
+  } else {
+    hessian_.multiply(direction_, product_);
+    for (std::size_t i = 0; i < direction_.size(); ++i) {
+      const double pull = product_[i] + lambda * direction_[i];
+      value += direction_[i] * (gradient_[i] + 0.5 * pull);
+      model_gradient_[i] = gradient_[i] + pull;
+    }
   }
   ContactPart contacts = problem.add_contacts(direction_, kind, matrix_, model_gradient_);
   contacts.value_mj += value;
