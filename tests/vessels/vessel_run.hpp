@@ -24,6 +24,9 @@ struct Vessel {
 /// The shared vessel of this name; null when it is not there.
 [[nodiscard]] const Vessel* shared_vessel(const std::string& name);
 
+/// A vessel from a mesh, its field prepared and its triangles written into a folder for the judge.
+[[nodiscard]] Vessel made_vessel(const vessel::TriangleMesh& mesh, const std::filesystem::path& folder);
+
 /// The wire of instruments/hydrophilic_035_angled.toml.
 [[nodiscard]] rod::Instrument hydrophilic_wire();
 
@@ -36,7 +39,8 @@ struct RunFigures {
   int steps = 0;     ///< commands
   int substeps = 0;  ///< what they were divided into to keep the limits of a step
   int recorded = 0;  ///< shapes outside the sheath, those on the way of a snap included
-  int converged = 0, split = 0, snaps = 0;
+  int converged = 0, snaps = 0;
+  int split = 0;     ///< halvings of sub-steps
   int on_edges = 0;  ///< commands in which walls were not brought to rest
   double detections = 0.0;
   double calm_detections = 0.0;    ///< in commands without a snap,
@@ -57,14 +61,16 @@ struct RunFigures {
 /// The hand: the next command, knowing the simulation.
 using Hand = std::function<sim::Command(const sim::Simulation&)>;
 
-/// Plays `steps` commands with that wire on that patient, records every shape into a folder and has the judge look at it.
+/// Plays `steps` commands, records every shape into a folder and has the judge look at it.
 [[nodiscard]] RunFigures play(const Vessel& vessel, const sim::Access& access, int steps, const Hand& next,
-                              const std::filesystem::path& folder);
+                              const std::filesystem::path& folder,
+                              const rod::Instrument& wire = hydrophilic_wire(),
+                              const sim::SimulationSpec& spec = lying_patient());
 
 /// The judge's verdict over a recording: check_crossings, a program of its own.
 [[nodiscard]] nlohmann::json judge(const std::filesystem::path& series, const std::string& vessel_path);
 
-/// Every step converged, at most 2 % split, at most 1.05 detections a step without a snap, no crossing found by the judge.
+/// Every step converged, at most 2 % of the sub-steps halved, at most 1.05 detections a step without a snap, no crossing found by the judge.
 void expect_all_that_must_hold(const RunFigures& run);
 
 }  // namespace endowire::test
