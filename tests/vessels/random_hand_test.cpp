@@ -16,8 +16,6 @@
 namespace endowire {
 namespace {
 
-constexpr int kSteps = 2000;
-
 /// A vessel, where the wire enters it, and how much of the wire may go in: more than the vessel is long, so that the wire
 /// also meets its ends, closed or open.
 struct Entry {
@@ -26,6 +24,7 @@ struct Entry {
   double most_mm;
   int opening;  ///< 0: at the place below
   sim::Access access;
+  int steps = 2000;
 };
 
 std::ostream& operator<<(std::ostream& out, const Entry& entry) {
@@ -42,7 +41,7 @@ TEST_P(RandomHand, ConvergesSplitsRarelyDetectsOnceAndCrossesNoWall) {
   test::SeededHand hand(entry.seed, entry.most_mm);
   const test::TemporaryFolder folder;
   const test::RunFigures run = test::play(
-      *vessel, access, kSteps,
+      *vessel, access, entry.steps,
       [&hand](const sim::Simulation& now) { return hand.next(now.state().inserted_mm); }, folder.path());
   std::printf("%s, seed %d: %s\n", entry.vessel, static_cast<int>(entry.seed), run.text().c_str());
   test::expect_all_that_must_hold(run);
@@ -61,11 +60,14 @@ Entry entry(const char* vessel, std::uint64_t seed) {
   throw std::invalid_argument(vessel);
 }
 
-std::vector<Entry> entries(std::uint64_t first_seed, std::uint64_t last_seed) {
+std::vector<Entry> entries(std::uint64_t first_seed, std::uint64_t last_seed, int steps = 2000) {
   std::vector<Entry> out;
   for (const char* vessel : {"femoral_to_neuro", "femoral_to_neuro_fine", "aortoiliac", "carotid_bifurcation",
                              "branching_phantom"}) {
-    for (std::uint64_t seed = first_seed; seed <= last_seed; ++seed) out.push_back(entry(vessel, seed));
+    for (std::uint64_t seed = first_seed; seed <= last_seed; ++seed) {
+      out.push_back(entry(vessel, seed));
+      out.back().steps = steps;
+    }
   }
   return out;
 }
@@ -76,6 +78,8 @@ std::string name_of(const testing::TestParamInfo<Entry>& entry) {
 
 INSTANTIATE_TEST_SUITE_P(Vessels, RandomHand, testing::ValuesIn(entries(1, 1)), name_of);
 INSTANTIATE_TEST_SUITE_P(Long, RandomHand, testing::ValuesIn(entries(2, 12)), name_of);
+// With tests/vessels/generated_hand_test.cpp, a million commands.
+INSTANTIATE_TEST_SUITE_P(LongEndurance, RandomHand, testing::ValuesIn(entries(101, 104, 20000)), name_of);
 
 }  // namespace
 }  // namespace endowire

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "support/generated_meshes.hpp"
-#include "support/seeded_hand.hpp"
 #include "support/swept_meshes.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/thin_wire.hpp"
 #include "support/wires.hpp"
 #include "vessel_run.hpp"
 
@@ -51,24 +51,6 @@ rod::Instrument thick_catheter() {
   catheter.grip_force_n = 10.0;
   catheter.grip_torque_n_mm = 50.0;
   return catheter;
-}
-
-/// A coronary wire: 0.356 mm thick, soft, its tip bent by 45°.
-rod::Instrument thin_wire() {
-  rod::Instrument wire = test::uniform_wire(0.8, 0.6, 5.0);
-  rod::Section& tip = wire.sections[0];
-  tip.radius_mm = {0.178, 0.178};
-  tip.axial_rigidity_n = {800.0, 800.0};
-  tip.linear_density_g_per_mm = 5e-4;
-  tip.friction = 0.05;
-  tip.rest_curvature_per_mm = 45.0 * kDegree / tip.length_mm;
-  rod::Section shaft = tip;
-  shaft.length_mm = 400.0;
-  shaft.rest_curvature_per_mm = 0.0;
-  shaft.flexural_rigidity_n_mm2 = {0.8, 8.0};
-  shaft.torsional_rigidity_n_mm2 = {0.6, 6.0};
-  wire.sections.push_back(shaft);
-  return wire;
 }
 
 /// The axis of a bend with its radius [mm] at every point, from what a function of the share of its length says.
@@ -129,7 +111,7 @@ Ordeal lumen_of_half_a_millimetre() {
   Ordeal o;
   o.mesh = bent(30.0, 8.0, 120.0 * kDegree, 16, 0.7, [](double) { return 0.55; });
   o.access = along_z(1.0);
-  o.wire = thin_wire();
+  o.wire = test::thin_wire();
   repeat(o.commands, 70, {1.0, 0.0});
   repeat(o.commands, 72, {0.0, 10.0 * kDegree});
   repeat(o.commands, 40, {-1.0, 5.0 * kDegree});
@@ -142,7 +124,7 @@ Ordeal lumens_side_by_side() {
   Ordeal o;
   o.mesh = bent(60.0, 1.6, std::numbers::pi, 24, 0.8, [](double) { return 1.5; });
   o.access = along_z();
-  o.wire = thin_wire();
+  o.wire = test::thin_wire();
   repeat(o.commands, 130, {1.0, 0.0});
   repeat(o.commands, 72, {0.0, 10.0 * kDegree});
   repeat(o.commands, 60, {-1.0, 10.0 * kDegree});
@@ -273,6 +255,7 @@ TEST_P(Torture, NothingCrossesAWall) {
   EXPECT_EQ(run.verdict["steps"], run.recorded);
   EXPECT_EQ(run.verdict["crossings"], 0) << run.crossings_text();
   EXPECT_EQ(run.converged, run.steps) << run.first_failure;
+  EXPECT_LE(run.on_edges, 0.05 * run.substeps) << "walls swing";
 }
 
 std::string name_of(const testing::TestParamInfo<Named>& named) {

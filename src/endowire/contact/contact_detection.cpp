@@ -29,6 +29,7 @@ constexpr double kRidgeDip_mm = 0.03;
 constexpr double kCorner_mm = 0.05;
 constexpr double kMostTilt = 0.3;
 constexpr double kSameHeight_mm = 2e-4;
+constexpr double kSamePlace_mm = 1e-3;  // the accuracy of a converged state
 constexpr double kSameSlope = 2e-3;
 Eigen::Vector3d tangent_at(const rod::ChainShape& shape, const Sample& sample) {
   const Eigen::Vector3d own = shape.frames[at(sample.rod)].col(2);
@@ -55,8 +56,11 @@ bool correct_wall(Sample& s, const Eigen::Vector3d& u, double predicted_mm,
   if (wall == nullptr) return false;
   const double turn = (actual.gradient - local_height_derivatives(*wall, u).gradient).norm();
   if (turn > kMostTilt) return false;
+  const bool same_height = std::abs(actual.distance_mm - predicted_mm) <= kSameHeight_mm;
+  if (same_height && turn > kSameSlope && rests_on_kink(*wall, u, actual.gradient, kSamePlace_mm, kSameSlope))
+    return false;
   correct_local_wall(u, actual.distance_mm, actual.gradient, *wall);
-  return std::abs(actual.distance_mm - predicted_mm) > kSameHeight_mm || turn > kSameSlope;
+  return !same_height || turn > kSameSlope;
 }
 
 bool reachable(const vessel::Field& field, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {

@@ -97,4 +97,14 @@ void correct_local_wall(const Eigen::Vector3d& displacement_mm, double height_mm
   wall.offset_mm = height_mm - local_height_mm(wall, u);
 }
 
+bool rests_on_kink(const LocalWall& wall, const Eigen::Vector3d& displacement_mm,
+                   const Eigen::Vector3d& gradient, double accuracy_mm, double slope_accuracy) {
+  if (!wall.corrected || (displacement_mm - wall.corrected_at_mm).norm() > accuracy_mm) return false;
+  const Eigen::Vector3d there = local_height_derivatives(wall, wall.corrected_at_mm).gradient;
+  const Eigen::Vector3d jump = gradient - there;
+  const Eigen::Vector3d turned = local_height_derivatives(wall, displacement_mm).gradient - there;
+  const double share = std::clamp(turned.dot(jump) / jump.squaredNorm(), 0.0, 1.0);
+  return (turned - share * jump).norm() <= slope_accuracy;
+}
+
 }  // namespace endowire::contact

@@ -64,4 +64,14 @@ struct LocalHeight {
 void correct_local_wall(const Eigen::Vector3d& displacement_mm, double height_mm,
                         const Eigen::Vector3d& gradient, LocalWall& wall);
 
+/// Whether an equilibrium with this wall, as it was corrected before, is one on a kink of the field: the two places differ by less than
+/// the solution's own accuracy, and the slope of the wall lies between what the field had there and what it has here. No
+/// correction brings it nearer, the field has no one slope; the wall's, which balances the forces, is one of its
+/// generalised slopes there.
+/// Source  generalised gradients: [Clarke1983 §2.5]
+/// @param accuracy_mm     of positions
+/// @param slope_accuracy  of slopes
+[[nodiscard]] bool rests_on_kink(const LocalWall& wall, const Eigen::Vector3d& displacement_mm,
+                                 const Eigen::Vector3d& gradient, double accuracy_mm, double slope_accuracy);
+
 }  // namespace endowire::contact

@@ -139,5 +139,44 @@ TEST(LocalWall, ComesToRestInACrease) {
   EXPECT_NEAR(x, 0.05 / kCurvature_per_mm, 1e-6);
 }
 
+// A valley with a sharp floor at x = 0, slopes ∓0.04, under a wire on a spring pulled along x by a quarter of that: it rests on the floor, where
+// no one slope of the field balances it.
+TEST(LocalWall, RestsOnAKink) {
+  LocalWall wall;
+  wall.normal = Eigen::Vector3d::UnitZ();
+  wall.first = Eigen::Vector3d::UnitX();
+  wall.second = Eigen::Vector3d::UnitY();
+  double x = 0.2;
+  int rounds = 0;
+  for (; rounds < 24; ++rounds) {
+    const Eigen::Vector3d u(x, 0.0, 0.0);
+    const Eigen::Vector3d slope(x > 0.0 ? -0.04 : 0.04, 0.0, 1.0);
+    if (rests_on_kink(wall, u, slope, 1e-3, 2e-3)) break;
+    correct_local_wall(u, -0.04 * std::abs(x), slope, wall);
+    for (int k = 0; k < 20; ++k) {
+      const LocalHeight h = local_height_derivatives(wall, {x, 0.0, 0.0});
+      x += (0.01 + h.gradient.x() - 0.5 * x) / (0.5 - h.hessian(0, 0));
+    }
+  }
+  EXPECT_LT(rounds, 16);
+  EXPECT_NEAR(x, 0.0, 1e-3);
+  EXPECT_NEAR(local_height_derivatives(wall, {x, 0.0, 0.0}).gradient.x(), -0.01, 2e-3);
+}
+
+// A smooth slope that a correction has missed is none.
+TEST(LocalWall, DoesNotTakeAnErrorForAKink) {
+  LocalWall wall;
+  wall.normal = Eigen::Vector3d::UnitZ();
+  wall.first = Eigen::Vector3d::UnitX();
+  wall.second = Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d slope(0.04, 0.0, 1.0);
+  EXPECT_FALSE(rests_on_kink(wall, Eigen::Vector3d::Zero(), slope, 1e-3, 2e-3)) << "never corrected";
+  correct_local_wall(Eigen::Vector3d::Zero(), 0.0, Eigen::Vector3d::UnitZ(), wall);
+  EXPECT_FALSE(rests_on_kink(wall, {0.1, 0.0, 0.0}, slope, 1e-3, 2e-3)) << "elsewhere";
+  wall.bend_per_mm(1, 0) = 300.0;
+  EXPECT_FALSE(rests_on_kink(wall, {5e-4, 0.0, 0.0}, slope, 1e-3, 2e-3))
+      << "a slope that the field has on neither side";
+}
+
 }  // namespace
 }  // namespace endowire::contact
