@@ -90,6 +90,33 @@ PostBuckling post_buckling(double end_angle_rad) {
   return {ratio * ratio, 2.0 * second / first - 1.0, k / first};
 }
 
+double michell_twist_rad(double bend_over_twist) {
+  return 2.0 * std::numbers::pi * std::numbers::sqrt3 * bend_over_twist;
+}
+
+double twisted_rod_onset(double length) {
+  const double h = 0.5 * length;
+  const auto condition = [=](double q) {
+    const double p = std::sqrt(1.0 + q * q);
+    const auto even = [=](double k) { return k * std::sin(k * h); };
+    const auto odd = [=](double k) { return std::sin(k * h) - k * h * std::cos(k * h); };
+    return odd(p + q) * even(p - q) - odd(p - q) * even(p + q);
+  };
+  // q = 0 solves it without a deflection: the first root beyond.
+  const double step = 1e-2 / h;
+  double low = step;
+  while (condition(low) * condition(low + step) > 0.0) low += step;
+  const double sign = condition(low) < 0.0 ? 1.0 : -1.0;
+  const double q = root(low, low + step, [&](double x) { return sign * condition(x); });
+  return std::sqrt(1.0 + q * q);
+}
+
+LocalisedBuckling localised_buckling(double rigidity_n_mm2, double tension_n, double middle_rad) {
+  const double c = std::cos(middle_rad);
+  const double moment = std::sqrt(2.0 * rigidity_n_mm2 * tension_n * (1.0 + c));
+  return {moment, 2.0 * rigidity_n_mm2 / moment * std::sqrt((1.0 + c) / (1.0 - c))};
+}
+
 double whip_hand_angle_rad(double lambda, double tip_angle_rad, double straight) {
   const Curve start =
       follow(tip_angle_rad, [=](double, double angle) { return lambda * lambda * std::sin(angle); });
