@@ -25,6 +25,7 @@ inline constexpr int kLocalisedRods = 400;
 [[nodiscard]] Checks locking_helix();                   // V9
 [[nodiscard]] Checks capstan();                         // V10
 [[nodiscard]] Checks insertion_into_a_bend();           // V11
+[[nodiscard]] Checks insertion_into_a_torus();          // V11
 [[nodiscard]] Checks curved_tip_at_a_wall();            // V12
 [[nodiscard]] Checks three_point_bend(int rods);        // V13
 
