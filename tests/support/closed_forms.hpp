@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "support/plane_point.hpp"
+
 namespace endowire::test {
 
 /// Shape of a cantilever's end, as shares of its length.
@@ -25,6 +27,10 @@ struct ElasticaEnd {
 ///
 /// Source   [Rohde1953]
 [[nodiscard]] ElasticaEnd self_weight_elastica(double gamma);
+
+/// The same two as curves from the clamp to the tip, as shares of the length.
+[[nodiscard]] std::vector<PlanePoint> tip_loaded_shape(double alpha);
+[[nodiscard]] std::vector<PlanePoint> self_weight_shape(double gamma);
 
 /// Column with pinned ends after buckling, by its end angle.
 struct PostBuckling {

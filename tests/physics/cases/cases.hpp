@@ -28,8 +28,15 @@ inline constexpr int kLocalisedRods = 400;
 [[nodiscard]] Checks insertion_into_a_torus();          // V11
 [[nodiscard]] Checks curved_tip_at_a_wall();            // V12
 [[nodiscard]] Checks three_point_bend(int rods);        // V13
-
-/// All of them, in this order: the table.
-[[nodiscard]] Checks all_checks();
+[[nodiscard]] Checks analytic_fields();                 // V15
+[[nodiscard]] Checks faceted_vessels();                 // V15
+[[nodiscard]] Checks internal_balance();                // V16
+[[nodiscard]] Checks balance_at_rest();                 // V16
+[[nodiscard]] Checks work_in_and_out();                 // V16
+[[nodiscard]] Checks rigid_motion();                    // V16
+[[nodiscard]] Checks step_size_without_friction();      // V16
+[[nodiscard]] Checks step_size_with_friction();         // V16
+[[nodiscard]] Checks rod_length_in_contact();           // V16
+[[nodiscard]] Checks remeshing();                       // V16
 
 }  // namespace endowire::test

@@ -16,6 +16,7 @@
 
 #include "cases.hpp"
 #include "endowire/vessel/analytic_field.hpp"
+#include "figures.hpp"
 #include "support/chains.hpp"
 
 namespace endowire::test {
@@ -203,6 +204,50 @@ Checks locking_helix() {
                       ErrorKind::relative, "Mitchell1986"});
   }
   return checks;
+}
+
+Figure helix_figure() {
+  const Helix helix = helix_without_friction();
+  Figure figure{"v9", "V9  Helix without friction, from its middle to the tip", "x/p", "height/r", {}};
+  Series exact{Mark::line, {}, ""};
+  Series ours{Mark::rings, {}, ""};
+  const double pitch_mm = 2.0 * kPi / kWave_per_mm;
+  // In phase with the closed form where the height is greatest next to the middle of the wire.
+  const std::size_t middle = helix.joints_mm.size() / 2;
+  std::size_t top = middle;
+  constexpr std::size_t kRound = 80;  // rods of a turn
+  for (std::size_t i = middle; i > middle - kRound; --i)
+    if (helix.joints_mm[i].y() > helix.joints_mm[top].y()) top = i;
+  const double from_mm = helix.joints_mm[top].x();
+  constexpr int kEvery = 4;
+  for (std::size_t i = top; i < helix.joints_mm.size(); i -= kEvery) {
+    ours.points.push_back(
+        {(helix.joints_mm[i].x() - from_mm) / pitch_mm, helix.joints_mm[i].y() / helix.clearance_mm});
+  }
+  constexpr double kStep = 0.01;
+  for (double x = 0.0; x < ours.points.back().x; x += kStep)
+    exact.points.push_back({x, std::cos(2.0 * kPi * x)});
+  figure.series = {exact, ours};
+  return figure;
+}
+
+Figure locking_helix_figure() {
+  const Lock lock = helix_with_friction();
+  Figure figure{"v9_friction",
+                "V9  Compression along a helix that slides with friction",
+                "x/length of lock-up",
+                "F/F₀",
+                {}};
+  Series exact{Mark::line, {}, ""};
+  Series ours{Mark::rings, {}, ""};
+  constexpr int kEvery = 12;
+  for (std::size_t i = 0; i < lock.from_tip_mm.size(); i += kEvery) {
+    const double share = lock.from_tip_mm[i] / lock.lock_mm;
+    exact.points.push_back({share, 1.0 / (1.0 - share)});
+    ours.points.push_back({share, lock.compression_n[i] / kTip_n});
+  }
+  figure.series = {exact, ours};
+  return figure;
 }
 
 }  // namespace endowire::test

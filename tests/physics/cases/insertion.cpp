@@ -28,6 +28,7 @@
 #include "cases.hpp"
 #include "endowire/sim/simulation.hpp"
 #include "endowire/vessel/analytic_field.hpp"
+#include "figures.hpp"
 #include "support/chains.hpp"
 
 namespace endowire::test {
@@ -222,6 +223,29 @@ Checks insertion_into_a_bend() {
       {"V11", "work of the hand per length, clearance 1.00 mm, sheath 25 mm before the bend [mN]", "ΔE/ΔL",
        1e3 * held.stored_n, 1e3 * held.work_n, 5e-3, ErrorKind::relative, "Bigoni2015"});
   return checks;
+}
+
+Figure torus_figure() {
+  Figure figure{"v11",
+                "V11  Hand force as a wire goes round a torus, by the clearance",
+                "inserted [mm]",
+                "hand force [mN]",
+                {}};
+  constexpr double kFrom_mm = 20.0;
+  constexpr std::size_t kEvery = 6;
+  for (const double clearance_mm : {0.25, 1.0, 3.0}) {
+    const std::vector<HandForce> forces = push_round_a_torus(clearance_mm);
+    Series ours{Mark::rings, {}, ""};
+    for (std::size_t i = 0; i < forces.size(); i += kEvery)
+      if (forces[i].inserted_mm > kFrom_mm)
+        ours.points.push_back({forces[i].inserted_mm, 1e3 * forces[i].force_n});
+    const double exact_mn = 1e3 * steady_push_n(clearance_mm);
+    figure.series.push_back({Mark::line,
+                             {{kFrom_mm, exact_mn}, {forces.back().inserted_mm, exact_mn}},
+                             std::to_string(clearance_mm).substr(0, 4) + " mm"});
+    figure.series.push_back(ours);
+  }
+  return figure;
 }
 
 }  // namespace endowire::test

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "cases.hpp"
+#include "figures.hpp"
 #include "support/chains.hpp"
 #include "support/closed_forms.hpp"
 
@@ -61,6 +62,33 @@ Checks michell_ring(int rods) {
   return {{"V6", "critical twist by inertia count [°]", "2π√3 EI/GJ", exact / kDegree,
            bracketed ? 0.5 * (low + high) / kDegree : std::numeric_limits<double>::quiet_NaN(), 1e-3,
            ErrorKind::relative, "Michell1889"}};
+}
+
+Figure michell_ring_figure() {
+  Figure figure{"v6",
+                "V6  Modes in which a twisted ring is unstable, from Michell's on",
+                "twist/(2π EI/GJ)",
+                "unstable modes",
+                {}};
+  Series exact{Mark::line, {{0.0, 0.0}}, ""};
+  constexpr int kLastMode = 4;
+  for (int mode = 2; mode <= kLastMode; ++mode) {  // of 2, 3, … waves round the ring
+    const double twist = std::sqrt(mode * mode - 1.0);
+    exact.points.push_back({twist, 2.0 * (mode - 2)});
+    exact.points.push_back({twist, 2.0 * (mode - 1)});
+  }
+  constexpr double kMost = 4.5;
+  exact.points.push_back({kMost, exact.points.back().y});
+  const double unit_rad =
+      michell_twist_rad(kRigidity_n_mm2 /
+                        uniform_section(kRigidity_n_mm2, kLength_mm).torsional_rigidity_n_mm2.at_tip_side) /
+      std::numbers::sqrt3;
+  Series ours{Mark::rings, {}, ""};
+  constexpr double kStep = 0.2;
+  for (double twist = 0.1; twist < kMost; twist += kStep)
+    ours.points.push_back({twist, static_cast<double>(unstable_modes(kRods, twist * unit_rad))});
+  figure.series = {exact, ours};
+  return figure;
 }
 
 }  // namespace endowire::test

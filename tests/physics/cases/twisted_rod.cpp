@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "cases.hpp"
+#include "figures.hpp"
 #include "support/chains.hpp"
 #include "support/closed_forms.hpp"
 
@@ -180,6 +181,28 @@ Checks localised_rod(int rods) {
                       kTolerance, ErrorKind::absolute, kSource});
   }
   return checks;
+}
+
+Figure localised_rod_figure() {
+  Figure figure{"v7", "V7  Angle of a localised bend to the axis of the rod", "s/s*", "φ [°]", {}};
+  constexpr int kEvery = 8;
+  constexpr double kDrawn = 5.0;  // extents to either side
+  for (const int degrees : {60, 75}) {
+    const Localised rod(kLocalisedRods, degrees * kDegree);
+    Series exact{Mark::line, {}, ""};
+    Series ours{Mark::rings, {}, ""};
+    for (double s = -kDrawn; s <= kDrawn; s += 0.1) {
+      const double c = std::cos(degrees * kDegree);
+      exact.points.push_back({s, std::acos(c + (1.0 - c) * std::pow(std::tanh(s), 2)) / kDegree});
+    }
+    for (int i = 1; i + 1 < rod.rods(); i += kEvery) {
+      const double s = rod.place_mm(i) / rod.exact().extent_mm;
+      if (std::abs(s) < kDrawn) ours.points.push_back({s, rod.angle_rad(i) / kDegree});
+    }
+    figure.series.push_back(exact);
+    figure.series.push_back(ours);
+  }
+  return figure;
 }
 
 }  // namespace endowire::test

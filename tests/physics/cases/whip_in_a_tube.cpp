@@ -14,6 +14,7 @@
 #include "cases.hpp"
 #include "endowire/sim/simulation.hpp"
 #include "endowire/vessel/analytic_field.hpp"
+#include "figures.hpp"
 #include "support/chains.hpp"
 #include "support/closed_forms.hpp"
 
@@ -148,6 +149,29 @@ Checks whip_in_a_tube() {
                     furthest > kSnap ? start / kDegree : std::numeric_limits<double>::quiet_NaN(),
                     kTolerance_deg, ErrorKind::absolute, "first variation"});
   return checks;
+}
+
+Figure whip_in_a_tube_figure() {
+  Figure figure{"v8_tube",
+                "V8  Torque whip in a tight tube, as the hand turns: Λ = 1, and 2 with its snap",
+                "angle at the start of the bend [°]",
+                "angle at the tip [°]",
+                {}};
+  constexpr int kEvery = 6;
+  for (const double lambda : {1.0, 2.0}) {
+    const Turning turning = turn_in_bend(lambda, 220.0 * kDegree);
+    Series exact{Mark::line, {{0.0, 0.0}}, ""};
+    Series ours{Mark::rings, {}, ""};
+    constexpr int kHalfTurn_deg = 180;
+    for (int tip = 3; tip <= kHalfTurn_deg; tip += 3)
+      exact.points.push_back(
+          {whip_hand_angle_rad(lambda, tip * kDegree) / kDegree, static_cast<double>(tip)});
+    for (std::size_t i = 0; i < turning.tip_rad.size() && turning.tip_rad[i] < kPi; i += kEvery)
+      ours.points.push_back({turning.start_rad[i] / kDegree, turning.tip_rad[i] / kDegree});
+    figure.series.push_back(exact);
+    figure.series.push_back(ours);
+  }
+  return figure;
 }
 
 }  // namespace endowire::test
