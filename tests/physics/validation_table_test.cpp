@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "support/validation_table.hpp"
+#include "validation.hpp"
 
 namespace endowire::test {
 namespace {

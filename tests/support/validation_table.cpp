@@ -28,7 +28,7 @@ int decimals_of(double size) {
 /// A size as a power of ten below a thousandth, else plain.
 std::string plain(double size) {
   char text[64];
-  std::snprintf(text, sizeof text, "%g", size);
+  std::snprintf(text, sizeof text, "%.3g", size);
   return text;
 }
 
@@ -98,7 +98,7 @@ std::string validation_document(const std::vector<Section>& sections) {
           "edit.\n\n"
           "Statics uses 100 rods unless it says so. *Order* is that at which the error fell since half as "
           "many rods. Sources are keys of "
-          "`references.bib`.\n";
+          "`references.bib`, or the\nprinciple from which the closed form follows in a line.\n";
   for (const Section& section : sections) {
     text << "\n## " << section.title << "\n\n" << section.text << "\n\n";
     for (const Figure& figure : section.figures)

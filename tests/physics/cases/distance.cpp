@@ -94,10 +94,10 @@ Checks analytic_fields() {
       miss_mm = std::max(miss_mm, std::abs(shape.field->at(p - w.distance_mm * w.gradient).distance_mm));
     }
     const std::string name = shape.name;
-    checks.push_back({"V15", name + ": largest error of |∇φ| [10⁻⁹]", "0", 0.0, kBillion * slope, 1.0,
-                      ErrorKind::absolute, "geometry"});
-    checks.push_back({"V15", name + ": largest |φ| at p − φ∇φ [10⁻⁹ mm]", "0", 0.0, kBillion * miss_mm, 1.0,
-                      ErrorKind::absolute, "geometry"});
+    checks.push_back({"V15", name + ": largest error of the length of ∇φ [10⁻⁹]", "0", 0.0, kBillion * slope,
+                      1.0, ErrorKind::absolute, "geometry"});
+    checks.push_back({"V15", name + ": largest distance left at p − φ∇φ [10⁻⁹ mm]", "0", 0.0,
+                      kBillion * miss_mm, 1.0, ErrorKind::absolute, "geometry"});
   }
   return checks;
 }
@@ -129,11 +129,11 @@ Checks faceted_vessels() {
                  kRadius_mm * (1.0 - std::cos(kPi / 32)) +
                      (kBend_mm + kRadius_mm) * (1.0 - std::cos(kPi / 96)))}}) {
     const Facets& f = mesh.facets;
-    checks.push_back({"V15", mesh.name + ": largest error of φ [µm], within sagitta and stated error", "0",
-                      0.0, kMicron * f.error_mm, kMicron * (f.sagitta_mm + f.stated_mm), ErrorKind::absolute,
+    checks.push_back({"V15", mesh.name + ": largest error of φ [µm]", "≤ sagitta + stated error", 0.0,
+                      kMicron * f.error_mm, kMicron * (f.sagitta_mm + f.stated_mm), ErrorKind::absolute,
                       "geometry"});
-    checks.push_back({"V15", mesh.name + ": mean error of |∇φ| [%]", "0", 0.0, 1e2 * f.slope_error, 2.0,
-                      ErrorKind::absolute, "geometry"});
+    checks.push_back({"V15", mesh.name + ": mean error of the length of ∇φ [%]", "0", 0.0,
+                      1e2 * f.slope_error, 2.0, ErrorKind::absolute, "geometry"});
   }
   return checks;
 }

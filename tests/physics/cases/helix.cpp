@@ -1,12 +1,12 @@
 // V9  A weightless wire in a straight cylinder, compressed, lies on the wall as a helix.
 //
-//   without friction   F = 8π² EI/p²,  [Lubinski1962]; wall force per length w = r F²/4EI
+//   without friction   F = 8π² EI/p² [Lubinski1962],  wall force per length w = r F²/4EI                         [Mitchell1986]
 //   with friction      dF/dx = μ w:  F = F₀/(1 − μ r F₀ x/4EI), locked up at x = 4EI/(μ r F₀)                 [Mitchell1986]
 //
 // Symbols  p pitch, r clearance between the axes of wire and cylinder, x from the tip [mm], F compression, F₀ at the tip [N]
 // Domain   slopes 2πr/p ≪ 1; the tip is free to run round the wall, so that no torque goes through the helix.
 //
-// The wall is soft, and still deflects by less than a thousandth of r: a joint that slides round a hard one leaves it at second order, and
+// The wall is soft, and still deflects by less than 0.3 % of r: a joint that slides round a hard one leaves it at second order, and
 // Newton would have to crawl.
 #include "helix.hpp"
 

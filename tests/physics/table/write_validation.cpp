@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "support/validation_table.hpp"
+#include "validation.hpp"
 
 namespace {
 
