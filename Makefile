@@ -1,11 +1,12 @@
 # The commands of the project. Each installs the system packages it needs (tools/deps.sh), configures and builds.
-.PHONY: help deps run demo test test-long bench format lint clean
+.PHONY: help deps run demo test test-long validation bench format lint clean
 JOBS ?= $(shell nproc)
 
 help:
 	@echo "make run        push a wire through a vessel; report.html, shape, forces, picture in out/run"
 	@echo "make test       everything that is checked, at most 45 minutes on 2 cores"
 	@echo "make test-long  sweeps that take longer"
+	@echo "make validation docs/validation.md and its pictures, from the code that the tests assert"
 	@echo "make bench      speed"
 	@echo "make format     clang-format over all sources"
 	@echo "make lint       clang-tidy over the library"
@@ -35,6 +36,11 @@ test-long:
 	cmake --preset check
 	cmake --build --preset check --parallel $(JOBS)
 	ctest --preset long --parallel $(JOBS)
+
+validation:
+	@tools/deps.sh test
+	cmake --preset check
+	cmake --build --preset check --parallel $(JOBS) --target validation
 
 bench:
 	@tools/deps.sh bench

@@ -10,6 +10,9 @@ namespace {
 TEST(V10Capstan, PullsWithTheExponentialOfFrictionAndAngle) {
   expect_to_hold(capstan());
 }
+TEST(V11Insertion, TakesInALooseTubeTheForceOfItsOuterWall) {
+  expect_to_hold(insertion_into_a_torus());
+}
 TEST(V11Insertion, TakesTheForceThatBendingCosts) {
   expect_to_hold(insertion_into_a_bend());
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct Check {
   double tolerance = 0.0;
   ErrorKind kind = ErrorKind::relative;
   std::string source;
+  /// Of the error as rods get shorter, measured by twice as long ones; no number where that says nothing.
+  double order = std::numeric_limits<double>::quiet_NaN();
 
   /// Infinite when the solver did not converge: a case reports that as a value that is not finite.
   [[nodiscard]] double error() const {

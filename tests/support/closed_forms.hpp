@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "support/plane_point.hpp"
+
 namespace endowire::test {
 
 /// Shape of a cantilever's end, as shares of its length.
@@ -26,6 +28,10 @@ struct ElasticaEnd {
 /// Source   [Rohde1953]
 [[nodiscard]] ElasticaEnd self_weight_elastica(double gamma);
 
+/// The same two as curves from the clamp to the tip, as shares of the length.
+[[nodiscard]] std::vector<PlanePoint> tip_loaded_shape(double alpha);
+[[nodiscard]] std::vector<PlanePoint> self_weight_shape(double gamma);
+
 /// Column with pinned ends after buckling, by its end angle.
 struct PostBuckling {
   double load = 0.0;        ///< P/Pcr, Pcr = π² EI/L²
@@ -36,6 +42,33 @@ struct PostBuckling {
 /// With k = sin(angle/2) and the complete elliptic integrals K, E:  P/Pcr = (2K/π)², span/L = 2E/K − 1, deflection/L = k/K.
 /// Source   [TimoshenkoGere1961 §2.7]
 [[nodiscard]] PostBuckling post_buckling(double end_angle_rad);
+
+/// Total twist at which a ring of a naturally straight, round wire leaves its plane, by the ratio EI/GJ: 2π√3 EI/GJ.
+/// Source   [Michell1889]
+[[nodiscard]] double michell_twist_rad(double bend_over_twist);
+
+/// Moment over 2√(EI T) at which a clamped rod under tension T buckles when it is twisted, by its length in units of √(EI/T). It
+/// tends to 1 as the rod grows long: M² = 4 EI T.
+///
+/// The deflection w = y + iz has EI w'''' − iM w''' − T w'' = 0, w = w' = 0 at both ends; so w = A + iBs + C exp(ik₁s) + D exp(ik₂s) with
+/// k = p ± q, p = M/2EI, q² = p² − T/EI. Symmetry about the middle leaves A … D real, and with h half the length
+///
+///   (sin k₁h − k₁h cos k₁h) k₂ sin k₂h = (sin k₂h − k₂h cos k₂h) k₁ sin k₁h
+///
+/// Source   first variation; [vanderHeijdenThompson2000] for the limit
+[[nodiscard]] double twisted_rod_onset(double length);
+
+/// Localised buckling of a long rod under tension T and twisting moment M: the angle φ of its tangent to its axis, φ₀ in the middle.
+///
+///   M² = 2EI T (1 + cos φ₀),  (cos φ − cos φ₀)/(1 − cos φ₀) = tanh²(s/s*),  s* = (2EI/M) √((1 + cos φ₀)/(1 − cos φ₀))
+///
+/// Source   [vanderHeijdenThompson2000]
+struct LocalisedBuckling {
+  double moment_n_mm = 0.0;
+  double extent_mm = 0.0;  ///< s*
+};
+[[nodiscard]] LocalisedBuckling localised_buckling(double rigidity_n_mm2, double tension_n,
+                                                   double middle_rad);
 
 /// Torque whip: a wire of rest curvature κ0 in a tube of curvature κt, α the angle between their planes.
 ///

@@ -13,6 +13,7 @@
 
 #include "cases.hpp"
 #include "endowire/vessel/analytic_field.hpp"
+#include "figures.hpp"
 #include "support/chains.hpp"
 
 namespace endowire::test {
@@ -106,6 +107,21 @@ Checks capstan() {
     }
   }
   return checks;
+}
+
+Figure capstan_figure() {
+  Figure figure{"v10", "V10  Capstan: bends of π/2 and π", "μΘ", "F_out/F_in", {}};
+  Series exact{Mark::line, {}, ""};
+  Series ours{Mark::rings, {}, ""};
+  constexpr double kMost = 1.0;
+  constexpr double kStep = 0.02;
+  for (double x = 0.0; x < kMost; x += kStep) exact.points.push_back({x, std::exp(x)});
+  for (const double angle_rad : {0.5 * std::numbers::pi, std::numbers::pi}) {
+    for (const double friction : {0.1, 0.2, 0.3})
+      ours.points.push_back({friction * angle_rad, pull_n(friction, angle_rad) / kTip_n});
+  }
+  figure.series = {exact, ours};
+  return figure;
 }
 
 }  // namespace endowire::test

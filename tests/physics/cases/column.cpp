@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cases.hpp"
+#include "figures.hpp"
 #include "support/chains.hpp"
 #include "support/closed_forms.hpp"
 
@@ -131,6 +132,47 @@ Checks buckled_column(int rods) {
     add("mid deflection/L", "k/K", exact.deflection, arch.deflection() + failed);
   }
   return checks;
+}
+
+Figure column_figure() {
+  Figure figure{
+      "v4", "V4  Modes in which a clamped column is unstable, two to a load", "P/Pcr", "unstable modes", {}};
+  Series exact{Mark::line, {{0.0, 0.0}}, ""};
+  for (int mode = 1; mode <= 3; ++mode) {
+    const double load = std::pow(2.0 * mode - 1.0, 2);
+    exact.points.push_back({load, 2.0 * (mode - 1)});
+    exact.points.push_back({load, 2.0 * mode});
+  }
+  constexpr double kMost = 30.0;
+  exact.points.push_back({kMost, exact.points.back().y});
+  Chain chain(uniform_wire(kRigidity_n_mm2, 2.0 * kLength_mm), kRods, kLength_mm / (kRods - 0.5));
+  chain.problem.clamp_hand_end();
+  Series ours{Mark::rings, {}, ""};
+  for (double load = 0.5; load < kMost; load += 1.0) {
+    const double load_n = load * kPi * kPi * kRigidity_n_mm2 / (4.0 * kLength_mm * kLength_mm);
+    ours.points.push_back({load, static_cast<double>(buckled_modes(chain, load_n))});
+  }
+  figure.series = {exact, ours};
+  return figure;
+}
+
+Figure buckled_column_figure() {
+  Figure figure{"v5", "V5  Column with pinned ends after buckling", "span/L", "P/Pcr", {}};
+  Series exact{Mark::line, {}, ""};
+  Series ours{Mark::rings, {}, ""};
+  constexpr int kMost_deg = 120;
+  for (int degrees = 2; degrees <= kMost_deg; degrees += 2) {
+    const PostBuckling column = post_buckling(degrees * kPi / 180.0);
+    exact.points.push_back({column.span, column.load});
+  }
+  for (int degrees = 15; degrees <= kMost_deg; degrees += 15) {
+    const double end_angle = degrees * kPi / 180.0;
+    Arch arch(kRods, end_angle);
+    const double load = load_of(arch, end_angle, post_buckling(end_angle).load);
+    ours.points.push_back({arch.span(), load});
+  }
+  figure.series = {exact, ours};
+  return figure;
 }
 
 }  // namespace endowire::test

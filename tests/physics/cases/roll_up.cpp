@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "cases.hpp"
+#include "figures.hpp"
 #include "support/chains.hpp"
 
 namespace endowire::test {
@@ -70,6 +71,32 @@ Checks roll_up(int rods) {
                       tip.y() / kLength_mm + failed, kTolerance, ErrorKind::relative, "arc of a circle"});
   }
   return checks;
+}
+
+Figure roll_up_figure() {
+  Figure figure{"v3",  "V3  A straight rod rolled up by an end moment, to a quarter … a whole turn",
+                "x/L", "y/L",
+                {},    true};
+  constexpr int kEvery = 4;
+  for (const double turns : {0.25, 0.5, 0.75, 1.0}) {
+    const double curvature = 2.0 * std::numbers::pi * turns / kLength_mm;
+    Chain chain(uniform_wire(kRigidity_n_mm2, 2.0 * kLength_mm), kRods, kLength_mm / (kRods - 0.5));
+    const double failed = nan_unless_converged(roll(chain, kRigidity_n_mm2 * curvature));
+    const auto& joints = chain.problem.shape.joints_mm;
+    const double clamp_mm = joints.back().x() + 0.5 * chain.rod_length_mm;
+    Series exact{Mark::line, {}, ""};
+    Series ours{Mark::rings, {}, ""};
+    for (int i = 0; i <= kRods; ++i) {
+      const double angle = curvature * kLength_mm * i / kRods;
+      exact.points.push_back(
+          {std::sin(angle) / (curvature * kLength_mm), (1.0 - std::cos(angle)) / (curvature * kLength_mm)});
+    }
+    for (std::size_t i = 0; i + 1 < joints.size(); i += kEvery)
+      ours.points.push_back({(joints[i].x() - clamp_mm) / kLength_mm + failed, joints[i].y() / kLength_mm});
+    figure.series.push_back(exact);
+    figure.series.push_back(ours);
+  }
+  return figure;
 }
 
 }  // namespace endowire::test

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cases.hpp"
+#include "figures.hpp"
 #include "support/chains.hpp"
 
 namespace endowire::test {
@@ -42,6 +43,19 @@ Checks three_point_bend(int rods) {
                       wire.modulus_gpa, measured_gpa + failed, 1e-3, ErrorKind::relative, "Harrison2011"});
   }
   return checks;
+}
+
+Figure three_point_bend_figure() {
+  Figure figure{"v13",
+                "V13  Moduli of real wires by three-point bending",
+                "measured on the bench [GPa]",
+                "measured in the simulator [GPa]",
+                {}};
+  Series ours{Mark::rings, {}, ""};
+  for (const Check& wire : three_point_bend(kRods)) ours.points.push_back({wire.reference, wire.ours});
+  constexpr double kMost_gpa = 170.0;
+  figure.series = {{Mark::line, {{0.0, 0.0}, {kMost_gpa, kMost_gpa}}, ""}, ours};
+  return figure;
 }
 
 }  // namespace endowire::test

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cases.hpp"
+#include "figures.hpp"
 #include "support/chains.hpp"
 #include "support/closed_forms.hpp"
 
@@ -138,6 +139,26 @@ Checks whip_on_a_given_curve(int rods) {
                     whip_snap_angle_rad(2.0) / kDegree, snap_rad(2.0, rods) / kDegree, kTolerance_deg,
                     ErrorKind::absolute, kSource});
   return checks;
+}
+
+Figure whip_figure() {
+  Figure figure{
+      "v8", "V8  Torque whip on a given curve, by Λ", "angle at the tip [°]", "angle at the hand [°]", {}};
+  for (const double lambda : {0.5, 1.0, 1.5, 2.0}) {
+    Whip whip(lambda, kRods);
+    // All end at 180°: the outermost names them.
+    Series exact{Mark::line, {{0.0, 0.0}}, lambda == 2.0 ? "Λ = 0.5, 1, 1.5, 2" : ""};
+    Series ours{Mark::rings, {}, ""};
+    constexpr int kHalfTurn_deg = 180;
+    for (int tip = 3; tip <= kHalfTurn_deg; tip += 3)
+      exact.points.push_back(
+          {static_cast<double>(tip), whip_hand_angle_rad(lambda, tip * kDegree) / kDegree});
+    for (int tip = 15; tip < kHalfTurn_deg; tip += 15)
+      ours.points.push_back({static_cast<double>(tip), hand_for_tip_rad(whip, tip * kDegree) / kDegree});
+    figure.series.push_back(exact);
+    figure.series.push_back(ours);
+  }
+  return figure;
 }
 
 }  // namespace endowire::test

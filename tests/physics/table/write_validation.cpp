@@ -1,31 +1,49 @@
-// write_validation FILE: runs the cases of physics and writes their table; when one misses its tolerance it writes nothing and
-// exits with 1.
+// write_validation DOCS: runs the cases of physics and writes DOCS/validation.md and its pictures; when one misses its tolerance it writes
+// nothing and exits with 1.
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 
-#include "cases.hpp"
-#include "support/validation_table.hpp"
+#include "validation.hpp"
+
+namespace {
+
+bool all_hold(const std::vector<endowire::test::Section>& sections) {
+  bool hold = true;
+  for (const endowire::test::Section& section : sections) {
+    for (const endowire::test::Check& c : section.checks) {
+      if (c.holds()) continue;
+      hold = false;
+      std::cerr << c.test << " " << c.quantity << ": error " << c.error() << ", allowed " << c.tolerance
+                << "\n";
+    }
+  }
+  return hold;
+}
+
+bool write(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  if (file.flush()) return true;
+  std::cerr << path.string() << ": cannot be written\n";
+  return false;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
-  using namespace endowire::test;
   if (argc != 2) {
-    std::cerr << "usage: write_validation FILE\n";
+    std::cerr << "usage: write_validation DOCS\n";
     return 2;
   }
-  const Checks checks = all_checks();
-  bool all_hold = true;
-  for (const Check& c : checks) {
-    if (c.holds()) continue;
-    all_hold = false;
-    std::cerr << c.test << " " << c.quantity << ": error " << c.error() << ", allowed " << c.tolerance
-              << "\n";
+  const std::filesystem::path docs = argv[1];
+  const std::filesystem::path pictures = docs / "images" / "validation";
+  const std::vector<endowire::test::Section> sections = endowire::test::validation();
+  if (!all_hold(sections)) return 1;
+  std::filesystem::create_directories(pictures);
+  for (const endowire::test::Section& section : sections) {
+    for (const endowire::test::Figure& figure : section.figures)
+      if (!write(pictures / (figure.name + ".svg"), endowire::test::svg(figure))) return 2;
   }
-  if (!all_hold) return 1;
-  std::ofstream file(argv[1], std::ios::binary);
-  file << validation_table(checks);
-  if (!file.flush()) {
-    std::cerr << argv[1] << ": cannot be written\n";
-    return 2;
-  }
-  return 0;
+  return write(docs / "validation.md", endowire::test::validation_document(sections)) ? 0 : 2;
 }
