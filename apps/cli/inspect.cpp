@@ -36,7 +36,7 @@ void print_repairs(const vessel::MeshReport& report) {
   count(report.degenerate_triangles, "degenerate triangles dropped");
   count(report.duplicate_triangles, "duplicate triangles dropped");
   count(report.sliver_triangles, "triangles without area, kept");
-  count(report.non_manifold_edges, "edges of three or more triangles");
+  count(report.non_manifold_edges.count, "edges of three or more triangles");
 }
 
 void print_facts(const io::VesselMesh& mesh, const vessel::MeshField& field) {
@@ -62,8 +62,6 @@ void print_facts(const io::VesselMesh& mesh, const vessel::MeshField& field) {
   for (const vessel::PinHole& hole : mesh.repaired.pin_holes)
     fmt::print("  {:<22} diameter {:.2f} mm at {}, treated as wall\n", "pin hole", hole.diameter_mm,
                place(hole.centre_mm));
-  if (report.wall_with_thickness)
-    fmt::print("  {:<22} one surface encloses another: this looks like a wall, not a lumen\n", "note");
   print_repairs(report);
   fmt::print(
       "  {:<22} {:.1f} MB, finest cell {:.3f} mm, error {:.4f} mm (median), {:.4f} mm (99 %), {:.4f} mm "

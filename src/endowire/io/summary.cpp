@@ -131,7 +131,7 @@ json vessel_json(const VesselMesh& mesh, const vessel::MeshField& field) {
             {"sliver_triangles_kept", report.sliver_triangles},
             {"flipped_triangles", report.flipped_triangles},
             {"inward_in_file", report.inward_in_file},
-            {"non_manifold_edges", report.non_manifold_edges}}},
+            {"non_manifold_edges", report.non_manifold_edges.count}}},
           {"field",
            {{"bytes", facts.bytes},
             {"bricks", facts.bricks},

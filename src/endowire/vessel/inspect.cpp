@@ -1,6 +1,6 @@
 #include "endowire/vessel/inspect.hpp"
 
-#include <cstdio>
+#include "endowire/vessel/mesh_text.hpp"
 
 namespace endowire::vessel {
 namespace {
@@ -9,10 +9,11 @@ std::string counted(std::size_t count, const char* one, const char* many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-std::string rounded(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
+std::string near(const FlawPlaces& places) {
+  std::string text = ", near ";
+  for (std::size_t k = 0; k < places.first_mm.size(); ++k)
+    text += (k > 0 ? ", " : "") + place_text(places.first_mm[k]);
+  return places.count > places.first_mm.size() ? text + ", …" : text;
 }
 
 }  // namespace
@@ -42,11 +43,27 @@ VesselReport inspect(const std::string& file_label, const RepairedMesh& repaired
   if (m.inward_in_file) say.emplace_back("the file's normals point inward; they were turned");
   if (!m.inward_in_file && m.flipped_triangles > 0)
     say.push_back(counted(m.flipped_triangles, "triangle was", "triangles were") + " turned to face outward");
-  if (m.non_manifold_edges > 0)
-    say.push_back(counted(m.non_manifold_edges, "edge has", "edges have") + " more than two triangles");
-  if (m.components > 1) say.push_back("the mesh has " + std::to_string(m.components) + " separate pieces");
+  if (m.non_manifold_edges.count > 0)
+    say.push_back(counted(m.non_manifold_edges.count, "edge has", "edges have") + " more than two triangles" +
+                  near(m.non_manifold_edges));
+  if (m.fins.count > 0)
+    say.push_back(counted(m.fins.count, "fin that hangs on the wall was", "fins that hang on the wall were") +
+                  " dropped" + near(m.fins));
+  if (m.membranes.count > 0)
+    say.push_back(
+        counted(m.membranes.count, "membrane across the lumen was", "membranes across the lumen were") +
+        " dropped" + near(m.membranes));
+  if (m.debris.count > 0)
+    say.push_back(
+        counted(m.debris.count, "piece too small to be a vessel was", "pieces too small to be vessels were") +
+        " dropped" + near(m.debris));
   if (m.wall_with_thickness)
-    say.emplace_back("one surface encloses another: this is a vessel wall with a thickness, not a lumen");
+    say.push_back("this is a vessel wall with a thickness: its inner surface is the lumen, " +
+                  counted(m.wall_triangles, "triangle", "triangles") + " of the wall were dropped");
+  if (m.self_intersections.count > 0)
+    say.push_back(counted(m.self_intersections.count, "pair of triangles passes", "pairs of triangles pass") +
+                  " through each other, and were kept" + near(m.self_intersections));
+  if (m.components > 1) say.push_back("the lumen has " + std::to_string(m.components) + " separate pieces");
   if (!repaired.pin_holes.empty())
     say.push_back(counted(repaired.pin_holes.size(), "pin hole counts", "pin holes count") +
                   " as closed wall");
