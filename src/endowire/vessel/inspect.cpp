@@ -18,22 +18,9 @@ std::string near(const FlawPlaces& places) {
 
 }  // namespace
 
-VesselReport inspect(const std::string& file_label, const RepairedMesh& repaired, const MeshField& field) {
-  VesselReport report;
-  report.file = file_label;
-  report.mesh = repaired.report;
-  report.field = field.facts();
-  for (std::size_t k = 0; k < repaired.openings.size(); ++k) {
-    const Opening& o = repaired.openings[k];
-    const VirtualTube& tube = field.virtual_tubes()[k];
-    report.openings.push_back(
-        {o.number, o.centre_mm, o.direction, o.diameter_mm, tube.end_mm - tube.begin_mm});
-  }
-  for (const PinHole& hole : repaired.pin_holes)
-    report.pin_holes.push_back({hole.centre_mm, hole.diameter_mm});
-
+std::vector<std::string> repair_remarks(const RepairedMesh& repaired) {
   const MeshReport& m = repaired.report;
-  auto& say = report.remarks;
+  std::vector<std::string> say;
   if (m.degenerate_triangles > 0)
     say.push_back(counted(m.degenerate_triangles, "degenerate triangle was", "degenerate triangles were") +
                   " dropped");
@@ -64,9 +51,35 @@ VesselReport inspect(const std::string& file_label, const RepairedMesh& repaired
     say.push_back(counted(m.self_intersections.count, "pair of triangles passes", "pairs of triangles pass") +
                   " through each other, and were kept" + near(m.self_intersections));
   if (m.components > 1) say.push_back("the lumen has " + std::to_string(m.components) + " separate pieces");
-  if (!repaired.pin_holes.empty())
-    say.push_back(counted(repaired.pin_holes.size(), "pin hole counts", "pin holes count") +
-                  " as closed wall");
+  if (m.cut_ends > 0)
+    say.push_back(counted(m.cut_ends, "end", "ends") + " without an edge at the rim cut back to a plane");
+  if (m.sliver_triangles > 0)
+    say.push_back(counted(m.sliver_triangles, "triangle without area was", "triangles without area were") +
+                  " kept");
+  FlawPlaces holes;
+  for (const PinHole& hole : repaired.pin_holes) holes.add(hole.centre_mm);
+  if (holes.count > 0)
+    say.push_back(counted(holes.count, "pin hole counts", "pin holes count") + " as closed wall" +
+                  near(holes));
+  return say;
+}
+
+VesselReport inspect(const std::string& file_label, const RepairedMesh& repaired, const MeshField& field) {
+  VesselReport report;
+  report.file = file_label;
+  report.mesh = repaired.report;
+  report.field = field.facts();
+  for (std::size_t k = 0; k < repaired.openings.size(); ++k) {
+    const Opening& o = repaired.openings[k];
+    const VirtualTube& tube = field.virtual_tubes()[k];
+    report.openings.push_back(
+        {o.number, o.centre_mm, o.direction, o.diameter_mm, tube.end_mm - tube.begin_mm});
+  }
+  for (const PinHole& hole : repaired.pin_holes)
+    report.pin_holes.push_back({hole.centre_mm, hole.diameter_mm});
+
+  report.remarks = repair_remarks(repaired);
+  auto& say = report.remarks;
   if (repaired.openings.empty()) say.emplace_back("the vessel ends are closed: a wire cannot leave");
   for (const OpeningReport& o : report.openings)
     if (o.virtual_tube_mm < 0.99 * FieldParameters{}.virtual_tube_mm)

@@ -18,14 +18,18 @@ using Eigen::Vector3d;
 constexpr std::size_t max_samples = 1500;  // of a median that is wanted to some per cent
 constexpr double usual_lumen_mm = 6.0;
 constexpr double usual_extent_mm = 200.0;
-constexpr double extent_spread = 0.8;  // of the logarithm; that of the lumen is 1
+constexpr double extent_spread = 0.65;  // of the logarithm; that of the lumen is 1
 /// A difference of cost below which the runner-up is named: odds of one in ten.
 constexpr double nearly_as_good = 4.6;
+
+/// A vessel that is possible yet as odd as this is not inferred: its unit has to be declared.
+constexpr double max_inferred_lumen_mm = 45.0;  // half the wall of a vessel tree is never that of a chamber
+constexpr double max_inferred_cost = 30.0;
 
 constexpr std::array<LengthUnit, 3> units{LengthUnit::millimetre, LengthUnit::metre, LengthUnit::centimetre};
 
 double rarity(LengthUnit unit) {
-  return unit == LengthUnit::centimetre ? 4.0 : 0.0;
+  return unit == LengthUnit::centimetre ? 5.0 : 0.0;
 }
 
 /// Width and length in units of the file.
@@ -41,6 +45,9 @@ struct Measures {
   [[nodiscard]] bool possible(double factor) const {
     return lumen * factor >= min_lumen_mm && lumen * factor <= max_lumen_mm &&
            extent * factor >= min_extent_mm && extent * factor <= max_extent_mm;
+  }
+  [[nodiscard]] bool likely(double factor) const {
+    return possible(factor) && lumen * factor <= max_inferred_lumen_mm && cost(factor) <= max_inferred_cost;
   }
 };
 
@@ -138,8 +145,8 @@ UnitChoice choose_unit(const TriangleMesh& soup, std::optional<LengthUnit> decla
     std::size_t best = 0;
     for (std::size_t k = 0; k < units.size(); ++k) {
       const double factor = millimetres_in(units[k]);
-      costs[k] = measures.possible(factor) ? measures.cost(factor) + rarity(units[k])
-                                           : std::numeric_limits<double>::infinity();
+      costs[k] = measures.likely(factor) ? measures.cost(factor) + rarity(units[k])
+                                         : std::numeric_limits<double>::infinity();
       if (costs[k] < costs[best]) best = k;
     }
     if (!std::isfinite(costs[best])) refuse(measures, LengthUnit::millimetre, file_label);

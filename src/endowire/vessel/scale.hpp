@@ -28,12 +28,12 @@ struct UnitChoice {
 
 /// The unit in which a vessel is as wide and as long as vessels are.
 ///
-///   cost(u) = (ln D u/D₀)²/σ_D² + (ln L u/L₀)²/σ_L² + c_u,   least among the units that give a possible vessel
+///   cost(u) = (ln D u/D₀)²/σ_D² + (ln L u/L₀)²/σ_L² + c_u,   least among the units that give a likely vessel
 ///
 /// Symbols  D  median width between walls; L  diagonal of the box, both in units of the file
-///          u  millimetres in the unit; D₀ = 6 mm, L₀ = 200 mm, σ_D = 1, σ_L = 0.8: estimates, that hold coronary and
+///          u  millimetres in the unit; D₀ = 6 mm, L₀ = 200 mm, σ_D = 1, σ_L = 0.65: estimates, that hold coronary and
 ///             cerebral arteries (D 1 … 4, L 60 … 150 mm) and the aorta (D 10 … 30, L 100 … 700 mm) alike
-///          c_u  0; for centimetres 4: files in them are rare
+///          c_u  0; for centimetres 5: files in them are rare
 /// @param soup      triangles in units of the file, vertices shared or not, facing anywhere
 /// @param declared  the unit that the user or the file names: held against what is possible
 /// @throws base::InputError when the vessel is impossible in the unit declared, or in all; it names the factor that would
