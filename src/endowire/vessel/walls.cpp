@@ -32,6 +32,7 @@ constexpr double min_outer_behind = 0.7;
 constexpr double crease_rad = 60.0 * std::numbers::pi / 180.0;
 /// A part between sharp edges of which the smaller side has more than this much of the area is taken apart.
 constexpr double max_mixed = 0.1;
+constexpr std::size_t samples_of_part = 1000;
 /// Pieces below this part of the largest volume are no lumen of their own.
 constexpr double min_lumen_volume = 0.01;
 /// Rags of an inner surface below this part of its area are dropped.
@@ -128,24 +129,25 @@ std::vector<Index> parts_between_creases(const TriangleMesh& mesh, std::size_t& 
   return joined.groups(count);
 }
 
-/// Which triangles bound the lumen.
+/// Which triangles bound the lumen. A part that is all of one side is told by some of its triangles.
 std::vector<bool> inner_surface(const TriangleMesh& mesh, const Sight& sight) {
-  const std::size_t triangles = mesh.triangles.size();
-  std::vector<bool> enclosed(triangles);
-  for (std::size_t t = 0; t < triangles; ++t) enclosed[t] = sight.enclosed(t);
-  std::size_t parts = 0;
-  const std::vector<Index> part = parts_between_creases(mesh, parts);
-  std::vector<double> area(parts, 0.0);
-  std::vector<double> inner(parts, 0.0);
-  for (std::size_t t = 0; t < triangles; ++t) {
-    const double a = mesh.area_normal(t).norm();
-    area[at(part[t])] += a;
-    if (enclosed[t]) inner[at(part[t])] += a;
-  }
-  std::vector<bool> result(triangles);
-  for (std::size_t t = 0; t < triangles; ++t) {
-    const double share = inner[at(part[t])] / area[at(part[t])];
-    result[t] = std::min(share, 1.0 - share) > max_mixed ? enclosed[t] : share > 0.5;
+  std::size_t count = 0;
+  const std::vector<Index> part_of = parts_between_creases(mesh, count);
+  std::vector<std::vector<Index>> parts(count);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    parts[at(part_of[t])].push_back(static_cast<Index>(t));
+  std::vector<bool> result(mesh.triangles.size());
+  for (const std::vector<Index>& part : parts) {
+    const std::size_t step = part.size() / samples_of_part + 1;
+    double area = 0.0;
+    double inner = 0.0;
+    for (std::size_t k = 0; k < part.size(); k += step) {
+      const double a = mesh.area_normal(at(part[k])).norm();
+      area += a;
+      if (sight.enclosed(at(part[k]))) inner += a;
+    }
+    const bool mixed = std::min(inner, area - inner) > max_mixed * area;
+    for (Index t : part) result[at(t)] = mixed ? sight.enclosed(at(t)) : inner > 0.5 * area;
   }
   return result;
 }
