@@ -41,8 +41,10 @@ std::vector<Index> joined_to(const TriangleMesh& mesh, const std::vector<std::ve
     }
   };
   for (Index v : loop) visit(v);
-  for (std::size_t i = 0; i < found.size(); ++i)
-    for (Index v : mesh.triangles[at(found[i])]) visit(v);
+  for (std::size_t next = 0; next < found.size();) {  // it grows on the way
+    const std::array<Index, 3> corners = mesh.triangles[at(found[next++])];
+    for (Index v : corners) visit(v);
+  }
   std::sort(found.begin(), found.end());
   return found;
 }
