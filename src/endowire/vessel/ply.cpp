@@ -143,8 +143,9 @@ class Values {
 
   /// What is left can hold no more values than this.
   [[nodiscard]] double most(Type type) const {
-    return encoding_ == Encoding::text ? static_cast<double>(bytes_.size())
-                                       : static_cast<double>((bytes_.size() - at_) / name_of(type).bytes);
+    const std::size_t values =
+        encoding_ == Encoding::text ? bytes_.size() : (bytes_.size() - at_) / name_of(type).bytes;
+    return static_cast<double>(values);
   }
 
   [[noreturn]] void ends() const {
