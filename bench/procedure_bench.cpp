@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "endowire/base/error.hpp"
+#include "endowire/io/centreline_file.hpp"
 #include "endowire/io/scene_file.hpp"
 #include "endowire/io/scene_vessel.hpp"
 #include "endowire/io/statistics.hpp"
@@ -135,7 +136,8 @@ void bench(const fs::path& path, const fs::path& cache_folder) {
   const Clock::time_point start = Clock::now();
   const io::PreparedField prepared = io::prepare_field(vessel, cache_folder);
   const double preparation_s = seconds_since(start);
-  sim::Simulation simulation(prepared.field, scene.instrument, io::access_of(scene, vessel),
+  sim::Simulation simulation(prepared.field, scene.instrument,
+                             io::access_of(scene, vessel, *io::prepare_centrelines(vessel, cache_folder)),
                              scene.simulation);
   const std::vector<io::TimedCommand> commands = io::commands_of(scene);
   print_table(scene, prepared, preparation_s, play(simulation, commands));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "endowire/base/error.hpp"
+#include "endowire/io/centreline_file.hpp"
 #include "endowire/io/scene_file.hpp"
 #include "endowire/io/scene_vessel.hpp"
 #include "endowire/io/statistics.hpp"
@@ -106,7 +107,7 @@ void bench(const fs::path& path) {
   const io::SceneFile scene = io::read_scene_file(path, {fs::path(ENDOWIRE_SOURCE_DIR) / "instruments"});
   const io::VesselMesh vessel = io::vessel_of(scene);
   const io::PreparedField prepared = io::prepare_field(vessel, {});
-  const sim::Access access = io::access_of(scene, vessel);
+  const sim::Access access = io::access_of(scene, vessel, *io::prepare_centrelines(vessel, {}));
   const std::vector<Step> reference = play(scene, prepared, access, uniform(0.5).spec);
   fmt::print("{}, against uniform rods of 0.5 mm, steps within {} of a snap left out\n",
              path.filename().string(), kUnsettled);

@@ -18,6 +18,7 @@ inline constexpr int exit_not_reproduced =
 [[nodiscard]] std::function<int()> add_generate(CLI::App& app);
 [[nodiscard]] std::function<int()> add_inspect(CLI::App& app);
 [[nodiscard]] std::function<int()> add_instruments(CLI::App& app);
+[[nodiscard]] std::function<int()> add_prepare(CLI::App& app);
 [[nodiscard]] std::function<int()> add_simulate(CLI::App& app);
 [[nodiscard]] std::function<int()> add_replay(CLI::App& app);
 

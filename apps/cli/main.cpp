@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   commands.emplace_back("generate", cli::add_generate(app));
   commands.emplace_back("inspect", cli::add_inspect(app));
   commands.emplace_back("instruments", cli::add_instruments(app));
+  commands.emplace_back("prepare", cli::add_prepare(app));
   commands.emplace_back("simulate", cli::add_simulate(app));
   commands.emplace_back("replay", cli::add_replay(app));
   const auto complain = [](const std::string& message) {
@@ -32,8 +33,9 @@ int main(int argc, char** argv) {
     return app.exit(help);
   } catch (const CLI::RequiredError& error) {
     if (argc > 1 && app.get_subcommands().empty())
-      return complain(std::string("endowire: \"") + argv[1] +
-                      "\" is no subcommand; must be generate, inspect, instruments, simulate or replay");
+      return complain(
+          std::string("endowire: \"") + argv[1] +
+          "\" is no subcommand; must be generate, inspect, instruments, prepare, simulate or replay");
     return complain(std::string("endowire: ") + error.what());
   } catch (const CLI::ParseError& error) {
     return complain(std::string("endowire: ") + error.what());

@@ -100,11 +100,12 @@ Procedure prepare(io::SceneFile scene, const std::string& cache, Progress& progr
   progress.stage("preparing the vessel …");
   const Clock::time_point start = Clock::now();
   procedure.vessel = io::vessel_of(procedure.scene);
-  procedure.scene.access = io::access_of(procedure.scene, procedure.vessel);
   std::future<std::shared_ptr<const vessel::CentrelineTree>> centrelines =
       std::async(std::launch::async, [&] { return io::prepare_centrelines(procedure.vessel, cache); });
   procedure.prepared = io::prepare_field(procedure.vessel, cache);
   procedure.centrelines = centrelines.get();
+  procedure.scene.access = io::access_of(procedure.scene, procedure.vessel, *procedure.centrelines);
+  procedure.scene.target = io::target_of(procedure.scene, procedure.vessel, *procedure.centrelines);
   if (procedure.scene.target)
     procedure.target = named_after(procedure.scene.name, [&] {
       return sim::find_target(*procedure.centrelines, *procedure.scene.target);
@@ -123,7 +124,7 @@ int run_procedure(Procedure& procedure, std::span<const io::TimedCommand> comman
   // From here on the input is good: only now is the folder touched.
   io::RunOutput output(options.out, header, procedure.scene.access);
   fs::path triangles = procedure.scene.vessel.file;
-  if (triangles.empty()) {
+  if (triangles.empty() || !io::uses_the_files_triangles(procedure.vessel)) {
     const std::vector<std::byte> stl = vessel::write_binary_stl(procedure.vessel.repaired.mesh);
     output.file("vessel.stl", {reinterpret_cast<const char*>(stl.data()), stl.size()});
     triangles = output.folder() / "vessel.stl";

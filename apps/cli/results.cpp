@@ -139,8 +139,9 @@ double peak_memory_mb() {
 void write_results(const Procedure& procedure, const fs::path& triangles, double peak_mb,
                    const RunOptions& options, io::RunOutput& output, Progress& progress) {
   progress.stage("judging wall crossings …");
-  const io::CrossingVerdict verdict =
-      judge_crossings(output.folder() / "wire.pvd", triangles, vessel::name_of(procedure.vessel.unit));
+  const bool of_the_file = io::uses_the_files_triangles(procedure.vessel);  // else written in mm
+  const io::CrossingVerdict verdict = judge_crossings(
+      output.folder() / "wire.pvd", triangles, of_the_file ? vessel::name_of(procedure.vessel.unit) : "mm");
   output.file("wire.svg", picture_of(procedure, verdict));
   const io::MachineFacts machine{peak_mb, procedure.preparation_s,
                                  procedure.prepared.origin == io::FieldOrigin::cached, instruction_set()};

@@ -73,7 +73,7 @@ std::vector<Case> cases() {
        "s.toml: access.position_mm is [9000, 0, 5]"},
       {"wire_wider_than_lumen", test::tube_stl(0.4, 60.0), "", "", "s.toml: access.position_mm is [0, 0, 5]"},
       {"opening_that_is_not_there", good, "position_mm = [0.0, 0.0, 5.0]\ndirection = [0.0, 0.0, 1.0]",
-       "opening = 1", "s.toml: access.opening is 1; must be left out: the vessel has no opening"},
+       "opening = 3", "s.toml: access.opening is 3; must be between 1 and 2"},
       {"unknown_key", good, "[simulation]", "[simulation]\nspeed = 3",
        "s.toml: simulation.speed is unknown; known here: max_advance_mm, max_torque_deg, step_s"},
       {"unknown_unit", good, "file = \"v.stl\"", "file = \"v.stl\"\nunit = \"inch\"",
@@ -141,9 +141,9 @@ TEST(BadCommandLine, IsOneLineToo) {
   test::write_text(folder / "s.toml", test::tube_scene);
   test::write_text(folder / "v.stl", test::tube_stl(4.0, 60.0));
   expect_bad_input(run_endowire(folder, {}), "endowire: A subcommand is required");
-  expect_bad_input(
-      run_endowire(folder, {"dance"}),
-      "endowire: \"dance\" is no subcommand; must be generate, inspect, instruments, simulate or replay");
+  expect_bad_input(run_endowire(folder, {"dance"}),
+                   "endowire: \"dance\" is no subcommand; must be generate, inspect, instruments, prepare, "
+                   "simulate or replay");
   expect_bad_input(run_endowire(folder, {"simulate"}), "SCENE is required");
   expect_bad_input(run_endowire(folder, {"simulate", "s.toml"}), "--out is required");
   expect_bad_input(run_endowire(folder, {"simulate", "s.toml", "--out", "out", "--speed"}), "--speed");
@@ -152,7 +152,9 @@ TEST(BadCommandLine, IsOneLineToo) {
   expect_bad_input(run_endowire(folder, {"simulate", "s.toml", "--out", "file"}),
                    "--out: file is a file; must be a folder");
   expect_bad_input(run_endowire(folder, {"inspect", "none.stl"}), "none.stl: no such file");
-  expect_bad_input(run_endowire(folder, {"inspect", "."}), ".: is a folder; must be a file");
+  expect_bad_input(
+      run_endowire(folder, {"inspect", "."}),
+      ".: is a folder without DICOM files; must be a file, or a folder that holds a DICOM series");
   expect_bad_input(run_endowire(folder, {"inspect", "v.stl", "--unit", "inch"}), "--unit is \"inch\"");
   expect_bad_input(run_endowire(folder, {"instruments", "steel"}),
                    "instruments: NAME is \"steel\"; must be one of");

@@ -57,6 +57,50 @@ inline TriangleMesh closed_tube(double radius_mm, double length_mm, std::size_t 
   return mesh;
 }
 
+/// The same mesh elsewhere, beside another one.
+inline void add_mesh(TriangleMesh& mesh, const TriangleMesh& other,
+                     const Eigen::Vector3d& shift_mm = Eigen::Vector3d::Zero()) {
+  const auto first = static_cast<std::int32_t>(mesh.vertices_mm.size());
+  for (const Eigen::Vector3d& v : other.vertices_mm) mesh.vertices_mm.emplace_back(v + shift_mm);
+  for (const auto& t : other.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+}
+
+inline void turn_over(TriangleMesh& mesh) {
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+}
+
+/// The wall of a straight tube along z as one solid: outer surface, inner surface and a flat rim at each end.
+inline TriangleMesh thick_tube(double inner_mm, double outer_mm, double length_mm, std::size_t around,
+                               std::size_t along) {
+  TriangleMesh mesh = open_tube(outer_mm, length_mm, around, along);
+  TriangleMesh inner = open_tube(inner_mm, length_mm, around, along);
+  turn_over(inner);
+  const auto first = static_cast<std::int32_t>(mesh.vertices_mm.size());
+  add_mesh(mesh, inner);
+  const auto end = static_cast<std::int32_t>(along * around);
+  for (std::size_t j = 0; j < around; ++j) {
+    const auto a = static_cast<std::int32_t>(j);
+    const auto b = static_cast<std::int32_t>((j + 1) % around);
+    mesh.triangles.push_back({b, a, first + a});
+    mesh.triangles.push_back({b, first + a, first + b});
+    mesh.triangles.push_back({end + a, end + b, first + end + a});
+    mesh.triangles.push_back({end + b, first + end + b, first + end + a});
+  }
+  return mesh;
+}
+
+/// A closed curve (distance from z, height) turned about z; faces away from what the curve goes round counter-clockwise.
+inline TriangleMesh turned(const std::vector<Eigen::Vector2d>& curve_mm, std::size_t around) {
+  TriangleMesh mesh;
+  for (const Eigen::Vector2d& point : curve_mm)
+    for (std::size_t j = 0; j < around; ++j) {
+      const double a = 2.0 * std::numbers::pi * static_cast<double>(j) / static_cast<double>(around);
+      mesh.vertices_mm.emplace_back(point.x() * std::cos(a), point.x() * std::sin(a), point.y());
+    }
+  add_rings(mesh, curve_mm.size(), around, true);
+  return mesh;
+}
+
 /// A torus around z.
 inline TriangleMesh torus(double bend_radius_mm, double radius_mm, std::size_t along, std::size_t around) {
   TriangleMesh mesh;

@@ -49,7 +49,6 @@ json index_or_null(std::int32_t index) {
 std::shared_ptr<const CentrelineTree> prepare_centrelines(const VesselMesh& mesh,
                                                           const fs::path& cache_folder,
                                                           const vessel::CentrelineParameters& parameters) {
-  if (mesh.repaired.report.wall_with_thickness) return std::make_shared<const CentrelineTree>();
   const std::uint64_t key = vessel::centreline_key(mesh.repaired, parameters);
   const fs::path file = cache_folder / centreline_cache_name(key);
   std::error_code error;

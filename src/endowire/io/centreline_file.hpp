@@ -12,7 +12,6 @@ namespace endowire::io {
 
 /// The centrelines of a vessel, from the cache when it holds those of the same mesh and parameters; else computed,
 /// and kept there. A damaged file is replaced; a cache that cannot be written to costs time, never the run.
-/// Empty for a mesh that is a wall with a thickness: its inside is no lumen.
 /// @param cache_folder  created when missing; empty: no cache
 [[nodiscard]] std::shared_ptr<const vessel::CentrelineTree> prepare_centrelines(
     const VesselMesh& mesh, const std::filesystem::path& cache_folder,

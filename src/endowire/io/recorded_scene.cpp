@@ -15,9 +15,10 @@ using base::InputError;
 
 namespace {
 
-bool is_file(const fs::path& path) {
+/// A file, or the folder of a DICOM series.
+bool is_vessel(const fs::path& path) {
   std::error_code error;
-  return fs::is_regular_file(path, error);
+  return fs::is_regular_file(path, error) || (!path.empty() && fs::is_directory(path, error));
 }
 
 [[noreturn]] void refuse_content(std::uint64_t content, const RecordingHeader& header,
@@ -37,8 +38,8 @@ fs::path find_mesh(const RecordingHeader& header, const fs::path& recording_path
   fs::path other;  // of that name, but not that content
   std::uint64_t content = 0;
   for (const fs::path& place : places) {
-    if (!is_file(place)) continue;
-    content = content_hash(read_file(place, max_mesh_bytes));
+    if (!is_vessel(place)) continue;
+    content = vessel_content_hash(place);
     if (content == header.vessel_hash) return place;
     other = place;
   }

@@ -54,25 +54,50 @@ vessel::GenerateRequest read_generator(const TomlTable& table) {
   return request;
 }
 
+VolumeOptions read_volume_options(const TomlTable& table) {
+  VolumeOptions options;
+  if (table.has("threshold")) options.threshold = table.number("threshold", any_number());
+  if (table.has("threshold_high")) {
+    if (!options.threshold) table.refuse("threshold_high", "given alone", "given with threshold");
+    options.threshold_high = table.number("threshold_high", any_number());
+  }
+  if (table.has("label")) options.label = table.integer("label", 1, 1'000'000'000);
+  if (table.has("smooth"))
+    options.smooth = static_cast<int>(table.integer("smooth", 0, max_smoothing_passes));
+  const std::string keep = table.string_or("keep", "largest", "\"largest\" or \"all\"");
+  if (keep != "largest" && keep != "all") table.refuse("keep", '"' + keep + '"', "\"largest\" or \"all\"");
+  options.keep_all = keep == "all";
+  return options;
+}
+
 VesselSource read_vessel(const TomlTable& root, const fs::path& folder, const RecordedParts* recorded) {
-  const std::optional<TomlTable> table = root.table(
-      "vessel", {"file", "unit", "generate", "seed", "open_ends", "parameters", "stenosis", "aneurysm"});
+  const std::optional<TomlTable> table =
+      root.table("vessel", {"file", "unit", "threshold", "threshold_high", "label", "smooth", "keep",
+                            "generate", "seed", "open_ends", "parameters", "stenosis", "aneurysm"});
   if (!table) root.refuse_missing("vessel", "a table with file or generate");
   VesselSource vessel;
-  const std::string unit = table->string_or("unit", "mm", "\"mm\", \"cm\" or \"m\"");
-  vessel.unit = vessel::parse_length_unit(unit, table->file() + ": " + table->path_of("unit"));
+  std::string unit;
+  if (table->has("unit")) {
+    unit = table->string("unit", "\"mm\", \"cm\" or \"m\"");
+    vessel.unit = vessel::parse_length_unit(unit, table->file() + ": " + table->path_of("unit"));
+  }
   if (table->has("file") == table->has("generate"))
     root.refuse("vessel",
                 table->has("file") ? "given both file and generate" : "given neither file nor generate",
                 "given one of the two");
   if (table->has("generate")) {
     vessel.generate = read_generator(*table);
-    if (unit != "mm") table->refuse("unit", '"' + unit + '"', "\"mm\" for a generated vessel");
+    if (!unit.empty() && unit != "mm")
+      table->refuse("unit", '"' + unit + '"', "\"mm\" for a generated vessel");
+    for (const char* key : {"threshold", "threshold_high", "label", "smooth", "keep"})
+      if (table->has(key))
+        table->refuse(key, "given for a generated vessel", "left out: it belongs to an image volume");
     return vessel;
   }
   for (const char* key : {"seed", "open_ends", "parameters", "stenosis", "aneurysm"})
     if (table->has(key)) table->refuse(key, "given with a file", "left out: it belongs to generate");
-  const std::string text = table->string("file", "the path of a mesh");
+  vessel.volume = read_volume_options(*table);
+  const std::string text = table->string("file", "the path of a mesh or of an image volume");
   if (recorded != nullptr) {
     vessel.file = recorded->vessel_file;
     return vessel;
@@ -168,15 +193,20 @@ void read_wall(const TomlTable& root, SceneFile& scene) {
 /// Whether the branch exists is known once the vessel is.
 void read_target(const TomlTable& root, SceneFile& scene) {
   const std::optional<TomlTable> table =
-      root.table("target", {"name", "branch", "near_mm", "beyond_ostium_mm", "within_radii"});
+      root.table("target", {"name", "branch", "near_mm", "opening", "beyond_ostium_mm", "within_radii"});
   if (!table) return;
-  if (table->has("branch") == table->has("near_mm"))
-    root.refuse("target",
-                table->has("branch") ? "given both a branch and a point" : "given neither branch nor near_mm",
-                "given one of the two");
+  const int places =
+      (table->has("branch") ? 1 : 0) + (table->has("near_mm") ? 1 : 0) + (table->has("opening") ? 1 : 0);
+  if (places != 1)
+    root.refuse("target", places == 0 ? "given no branch, near_mm or opening" : "given more than one place",
+                "given one of branch, near_mm and opening");
   sim::TargetSpec target;
   target.name = table->string_or("name", "", "a text");
-  if (table->has("near_mm")) {
+  if (table->has("opening")) {
+    scene.target_opening = static_cast<int>(table->integer("opening", 1, 10'000));
+    if (table->has("beyond_ostium_mm"))
+      table->refuse("beyond_ostium_mm", "given with an opening", "left out: the opening is the place");
+  } else if (table->has("near_mm")) {
     target.near_mm = table->vector("near_mm");
   } else {
     target.branch = table->string("branch", "the name of a branch, as endowire inspect lists it");

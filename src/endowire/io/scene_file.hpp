@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "endowire/io/lumen_image.hpp"
 #include "endowire/rod/instrument.hpp"
 #include "endowire/sim/scene.hpp"
 #include "endowire/sim/target.hpp"
@@ -20,9 +21,10 @@ inline constexpr double max_motion_deg = 1e6;  ///< nearly three thousand turns
 
 /// Where the vessel comes from: a file, or an anatomy made in code.
 struct VesselSource {
-  std::filesystem::path file;  ///< as it can be opened from here; empty when generated
-  vessel::LengthUnit unit = vessel::LengthUnit::millimetre;  ///< unit of the file
-  std::optional<vessel::GenerateRequest> generate;           ///< what to make; none when read from a file
+  std::filesystem::path file;                       ///< as it can be opened from here; empty when generated
+  std::optional<vessel::LengthUnit> unit;           ///< of the file; none: inferred
+  VolumeOptions volume;                             ///< how the lumen of an image is found
+  std::optional<vessel::GenerateRequest> generate;  ///< what to make; none when read from a file
 };
 
 /// A procedure as written down in a scene file; units as in sim/scene.hpp.
@@ -39,6 +41,8 @@ struct SceneFile {
   std::optional<double> step_s;  ///< a fixed rate instead of the longest step
   std::vector<sim::Motion> motions;
   std::optional<sim::TargetSpec> target;
+  std::optional<int>
+      target_opening;  ///< the target is this end of the vessel, counted from 1; only the vessel tells where
   std::string perforation_source;  ///< where the threshold of a perforation comes from
 };
 

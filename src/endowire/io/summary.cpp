@@ -8,6 +8,7 @@
 
 #include "endowire/io/file.hpp"
 #include "endowire/io/version.hpp"
+#include "endowire/vessel/inspect.hpp"
 
 namespace endowire::io {
 
@@ -91,6 +92,49 @@ json target_json(const SceneFile& scene, const RunGoal& goal, const Eigen::Vecto
 
 }  // namespace
 
+namespace {
+
+json places_json(const vessel::FlawPlaces& places) {
+  json first = json::array();
+  for (const Eigen::Vector3d& place : places.first_mm) first.push_back(vector_json(place));
+  return first;
+}
+
+json volume_json(const VolumeReport& report) {
+  const auto number = [](const auto& value) { return value ? json(*value) : json(nullptr); };
+  return {{"size", report.size},
+          {"spacing_mm", vector_json(report.spacing_mm)},
+          {"frame_in_file", report.frame},
+          {"frame", "LPS"},
+          {"label_map", report.label_map},
+          {"label", number(report.label)},
+          {"threshold", number(report.threshold)},
+          {"threshold_high", number(report.threshold_high)},
+          {"threshold_found", report.threshold_found},
+          {"pieces", report.pieces},
+          {"pieces_kept", report.pieces_kept},
+          {"voxels_kept", report.voxels_kept},
+          {"largest_dropped_voxels", report.largest_dropped},
+          {"cavity_voxels_filled", report.cavity_voxels},
+          {"smoothing_passes", report.smoothing_passes}};
+}
+
+}  // namespace
+
+json ends_json(const std::vector<vessel::VesselEnd>& ends) {
+  json list = json::array();
+  for (const vessel::VesselEnd& end : ends)
+    list.push_back({{"number", end.number},
+                    {"open", end.open},
+                    {"centre_mm", vector_json(end.centre_mm)},
+                    {"direction", vector_json(end.direction)},
+                    {"diameter_mm", finite(end.diameter_mm)},
+                    {"branch", end.branch.empty() ? json(nullptr) : json(end.branch)},
+                    {"access_mm", vector_json(end.access_mm)},
+                    {"inward", vector_json(end.inward)}});
+  return list;
+}
+
 json vessel_json(const VesselMesh& mesh, const vessel::MeshField& field) {
   const vessel::MeshReport& report = mesh.repaired.report;
   const vessel::FieldFacts& facts = field.facts();
@@ -107,6 +151,9 @@ json vessel_json(const VesselMesh& mesh, const vessel::MeshField& field) {
   return {{"source", mesh.source},
           {"content_hash", hash_text(mesh.content_hash)},
           {"unit", vessel::name_of(mesh.unit)},
+          {"unit_inferred", mesh.unit_inferred},
+          {"unit_text", mesh.unit_text},
+          {"image", mesh.volume ? volume_json(*mesh.volume) : json(nullptr)},
           {"triangles", report.triangles},
           {"vertices", report.vertices},
           {"components", report.components},
@@ -131,7 +178,18 @@ json vessel_json(const VesselMesh& mesh, const vessel::MeshField& field) {
             {"sliver_triangles_kept", report.sliver_triangles},
             {"flipped_triangles", report.flipped_triangles},
             {"inward_in_file", report.inward_in_file},
-            {"non_manifold_edges", report.non_manifold_edges}}},
+            {"non_manifold_edges", report.non_manifold_edges.count},
+            {"fins_dropped", report.fins.count},
+            {"membranes_dropped", report.membranes.count},
+            {"components_in_file", report.components_in_file},
+            {"debris_dropped", report.debris.count},
+            {"wall_triangles_dropped", report.wall_triangles},
+            {"ends_cut", report.cut_ends},
+            {"self_intersections", report.self_intersections.count},
+            {"self_intersections_mm", places_json(report.self_intersections)},
+            {"non_manifold_edges_mm", places_json(report.non_manifold_edges)},
+            {"debris_mm", places_json(report.debris)},
+            {"remarks", vessel::repair_remarks(mesh.repaired)}}},
           {"field",
            {{"bytes", facts.bytes},
             {"bricks", facts.bricks},

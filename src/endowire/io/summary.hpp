@@ -3,12 +3,14 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "endowire/io/scene_file.hpp"
 #include "endowire/io/statistics.hpp"
 #include "endowire/io/vessel_file.hpp"
 #include "endowire/sim/snapshot.hpp"
 #include "endowire/sim/target.hpp"
+#include "endowire/vessel/vessel_ends.hpp"
 
 namespace endowire::io {
 
@@ -29,6 +31,9 @@ struct MachineFacts {
 /// Facts of a mesh as JSON: triangles, openings, pin holes, lumen diameters, what was repaired, and its
 /// field.
 [[nodiscard]] nlohmann::ordered_json vessel_json(const VesselMesh& mesh, const vessel::MeshField& field);
+
+/// The ends of a vessel as JSON: number, open or closed, centre, direction, diameter, branch.
+[[nodiscard]] nlohmann::ordered_json ends_json(const std::vector<vessel::VesselEnd>& ends);
 
 /// The centrelines of a run's vessel, and the target on them if its scene has one.
 struct RunGoal {

@@ -1,12 +1,17 @@
 #include "endowire/io/vessel_file.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <span>
 #include <system_error>
 
 #include "endowire/base/error.hpp"
 #include "endowire/io/file.hpp"
-#include "endowire/vessel/stl.hpp"
+#include "endowire/io/surface_file.hpp"
+#include "endowire/io/volume_file.hpp"
+#include "endowire/io/volume_surface.hpp"
+#include "endowire/vessel/hash.hpp"
+#include "endowire/vessel/scale.hpp"
 
 namespace endowire::io {
 
@@ -20,16 +25,66 @@ std::span<const std::byte> bytes_of(const std::string& text) {
   return std::as_bytes(std::span(text));
 }
 
-}  // namespace
+void read_volume_into(VesselMesh& mesh, const fs::path& path, std::optional<vessel::LengthUnit> unit,
+                      const VolumeOptions& options) {
+  if (unit)
+    throw base::InputError(mesh.source + ": unit is " + std::string(vessel::name_of(*unit)) +
+                           "; must be left out: an image volume says its own");
+  mesh.content_hash = vessel_content_hash(path);
+  VolumeReport report;
+  const vessel::TriangleMesh surface = lumen_surface(read_volume(path), options, mesh.source, report);
+  mesh.volume = report;
+  mesh.unit_text = "mm, from the image";
+  mesh.repaired = vessel::repair(surface, mesh.source);
+}
 
-VesselMesh read_vessel_file(const fs::path& path, vessel::LengthUnit unit) {
-  VesselMesh mesh;
-  mesh.source = one_line(path.string());
-  mesh.unit = unit;
+void read_surface_into(VesselMesh& mesh, const fs::path& path, std::optional<vessel::LengthUnit> unit) {
   const std::string bytes = read_file(path, max_mesh_bytes);
   mesh.content_hash = content_hash(bytes);
-  mesh.repaired = vessel::repair(vessel::parse_stl(bytes_of(bytes), mesh.source, unit), mesh.source, unit);
+  vessel::TriangleMesh surface = parse_surface(bytes, path);
+  const vessel::UnitChoice choice = vessel::choose_unit(surface, unit, mesh.source);
+  mesh.unit = choice.unit;
+  mesh.unit_inferred = choice.inferred;
+  mesh.unit_text = choice.text();
+  mesh.repaired =
+      vessel::repair(vessel::in_millimetres(std::move(surface), choice.unit), mesh.source, choice.unit);
+}
+
+}  // namespace
+
+VesselMesh read_vessel_file(const fs::path& path, std::optional<vessel::LengthUnit> unit,
+                            const VolumeOptions& options) {
+  VesselMesh mesh;
+  mesh.source = one_line(path.string());
+  if (names_a_volume(path)) {
+    read_volume_into(mesh, path, unit, options);
+  } else {
+    read_surface_into(mesh, path, unit);
+  }
   return mesh;
+}
+
+std::uint64_t vessel_content_hash(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return content_hash(read_file(path, max_mesh_bytes));
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(path, error))
+    if (std::error_code ignored; entry.is_regular_file(ignored) && entry.file_size(ignored) > 0)
+      files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  vessel::ContentHash hash;
+  for (const fs::path& file : files) {
+    const std::string bytes = read_file(file, max_mesh_bytes);
+    hash.add_bytes(bytes_of(bytes).data(), bytes.size());
+  }
+  return hash.value();
+}
+
+bool uses_the_files_triangles(const VesselMesh& mesh) {
+  const vessel::MeshReport& report = mesh.repaired.report;
+  const bool is_stl = fs::path(mesh.source).extension() == ".stl";
+  return is_stl && !report.wall_with_thickness && report.fins.count == 0 && report.membranes.count == 0 &&
+         report.debris.count == 0;
 }
 
 VesselMesh generate_vessel(const vessel::GenerateRequest& request) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "endowire/io/lumen_image.hpp"
 #include "endowire/sim/scene.hpp"
 #include "endowire/vessel/generate.hpp"
 #include "endowire/vessel/mesh_field.hpp"
@@ -24,13 +25,27 @@ struct VesselMesh {
   vessel::LengthUnit unit = vessel::LengthUnit::millimetre;
   vessel::RepairedMesh repaired;
   std::optional<sim::Access> access;  ///< of a generated vessel: where a wire enters
+  std::string unit_text = {};         ///< why that unit, for people; empty when generated
+  bool unit_inferred = false;
+  std::optional<VolumeReport> volume = {};  ///< of an image: how its lumen was found
 };
 
 inline constexpr std::uintmax_t max_mesh_bytes = std::uintmax_t{2} << 30;  // 43 million triangles
 
-/// Reads a mesh file (STL) of at most max_mesh_bytes.
+/// Reads a surface of at most max_mesh_bytes (parse_surface) or an image volume (read_volume), and repairs it.
+/// @param unit     of a surface; none: inferred. Image volumes say theirs.
+/// @param options  of an image volume
 /// @throws base::InputError one line that names the file and what is wrong with it.
-[[nodiscard]] VesselMesh read_vessel_file(const std::filesystem::path& path, vessel::LengthUnit unit);
+[[nodiscard]] VesselMesh read_vessel_file(const std::filesystem::path& path,
+                                          std::optional<vessel::LengthUnit> unit = {},
+                                          const VolumeOptions& options = {});
+
+/// Hash of what a vessel file holds; of a folder, of all its files in the order of their names.
+[[nodiscard]] std::uint64_t vessel_content_hash(const std::filesystem::path& path);
+
+/// Whether the triangles that are used are those of a file that the crossing judge can read: an STL of which nothing was
+/// taken away.
+[[nodiscard]] bool uses_the_files_triangles(const VesselMesh& mesh);
 
 /// A vessel made in code.
 /// @throws base::InputError one line that names the field, its value and what is allowed

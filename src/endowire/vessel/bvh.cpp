@@ -186,6 +186,30 @@ void TriangleBvh::collect(const Vector3d& centre, double radius_mm, std::vector<
   });
 }
 
+void TriangleBvh::touching(const Eigen::AlignedBox3d& box, std::vector<std::int32_t>& out) const {
+  out.clear();
+  if (nodes_.empty()) return;
+  std::array<std::int32_t, stack_size> stack;
+  std::size_t top = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const std::int32_t at = stack[--top];
+    const Node& node = nodes_[static_cast<std::size_t>(at)];
+    if (!box.intersects(Eigen::AlignedBox3d(node.low, node.high))) continue;
+    if (node.count == 0) {
+      stack[top++] = node.first;
+      stack[top++] = at + 1;
+      continue;
+    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+      const std::int32_t t = order_[static_cast<std::size_t>(i)];
+      Eigen::AlignedBox3d own;
+      for (std::size_t k = 0; k < 3; ++k) own.extend(mesh_.corner(static_cast<std::size_t>(t), k));
+      if (box.intersects(own)) out.push_back(t);
+    }
+  }
+}
+
 TriangleBvh::Hit TriangleBvh::cast(const Vector3d& origin, const Vector3d& direction, double from_mm,
                                    double to_mm) const {
   Hit hit;

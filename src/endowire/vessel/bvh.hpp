@@ -51,6 +51,9 @@ class TriangleBvh {
   /// All triangles no further than `radius_mm` from `centre_mm`, nearest first.
   void collect(const Eigen::Vector3d& centre_mm, double radius_mm, std::vector<Candidate>& out) const;
 
+  /// All triangles whose own boxes touch a box, in no order.
+  void touching(const Eigen::AlignedBox3d& box_mm, std::vector<std::int32_t>& out) const;
+
   /// First triangle along a ray between `from_mm` and `to_mm` of its length; `direction` has length one.
   [[nodiscard]] Hit cast(const Eigen::Vector3d& origin_mm, const Eigen::Vector3d& direction, double from_mm,
                          double to_mm) const;

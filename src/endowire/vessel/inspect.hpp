@@ -33,6 +33,9 @@ struct VesselReport {
   std::vector<std::string> remarks;  ///< what a reader should know, one calm sentence each
 };
 
+/// What was found and done, one calm sentence each, with places; empty for a sound mesh.
+[[nodiscard]] std::vector<std::string> repair_remarks(const RepairedMesh& repaired);
+
 [[nodiscard]] VesselReport inspect(const std::string& file_label, const RepairedMesh& repaired,
                                    const MeshField& field);
 

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <limits>
 
 #include "endowire/base/bits.hpp"
 #include "endowire/base/error.hpp"
+#include "endowire/vessel/text_tokens.hpp"
 
 namespace endowire::vessel {
 namespace {
@@ -28,74 +28,6 @@ double read_float(const std::byte* p) {
 
 void write_u32(std::vector<std::byte>& out, std::uint32_t value) {
   for (unsigned k = 0; k < 4; ++k) out.push_back(static_cast<std::byte>((value >> (8 * k)) & 0xffU));
-}
-
-bool is_space(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f' || c == '\v';
-}
-
-char lower(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-bool equals(std::string_view token, std::string_view word) {
-  if (token.size() != word.size()) return false;
-  for (std::size_t i = 0; i < token.size(); ++i)
-    if (lower(token[i]) != word[i]) return false;
-  return true;
-}
-
-/// A decimal number, independent of the locale; NaN when the text is none (the caller refuses NaN anyway).
-double parse_number(std::string_view text) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  std::size_t i = 0;
-  const bool negative = i < text.size() && text[i] == '-';
-  if (i < text.size() && (text[i] == '-' || text[i] == '+')) ++i;
-  double mantissa = 0.0;
-  int exponent = 0;
-  bool digits = false;
-  bool point = false;
-  for (; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c >= '0' && c <= '9') {
-      digits = true;
-      if (mantissa < 9e15) {
-        mantissa = 10.0 * mantissa + (c - '0');
-        if (point) --exponent;
-      } else if (!point) {
-        ++exponent;
-      }
-    } else if (c == '.' && !point) {
-      point = true;
-    } else {
-      break;
-    }
-  }
-  if (!digits) return none;
-  if (i < text.size() && lower(text[i]) == 'e') {
-    ++i;
-    const bool minus = i < text.size() && text[i] == '-';
-    if (i < text.size() && (text[i] == '-' || text[i] == '+')) ++i;
-    if (i == text.size()) return none;
-    int power = 0;
-    for (; i < text.size(); ++i) {
-      if (text[i] < '0' || text[i] > '9') return none;
-      if (power < 10000) power = 10 * power + (text[i] - '0');
-    }
-    exponent += minus ? -power : power;
-  }
-  if (i != text.size()) return none;
-  const double scaled =
-      exponent < 0 ? mantissa / std::pow(10.0, -exponent) : mantissa * std::pow(10.0, exponent);
-  const double value = mantissa == 0.0 ? 0.0 : scaled;
-  return negative ? -value : value;
-}
-
-/// Text of a value that may be anything, short enough for a message of one line.
-std::string quoted(std::string_view token) {
-  std::string text;
-  for (char c : token.substr(0, 24)) text += (c >= ' ' && c <= '~') ? c : '?';
-  return text;
 }
 
 void add_vertex(TriangleMesh& mesh, const Eigen::Vector3d& v) {
@@ -131,25 +63,6 @@ TriangleMesh parse_binary(std::span<const std::byte> bytes, const std::string& f
   }
   return mesh;
 }
-
-class Tokens {
- public:
-  explicit Tokens(std::string_view text) : text_(text) {}
-  /// The next word; empty at the end.
-  std::string_view next() {
-    while (at_ < text_.size() && is_space(text_[at_])) ++at_;
-    const std::size_t begin = at_;
-    while (at_ < text_.size() && !is_space(text_[at_])) ++at_;
-    return text_.substr(begin, at_ - begin);
-  }
-  void skip_line() {
-    while (at_ < text_.size() && text_[at_] != '\n') ++at_;
-  }
-
- private:
-  std::string_view text_;
-  std::size_t at_ = 0;
-};
 
 TriangleMesh parse_ascii(std::string_view text, const std::string& file, double scale) {
   TriangleMesh mesh;

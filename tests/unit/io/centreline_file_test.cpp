@@ -37,12 +37,6 @@ TEST(CentrelineFile, CacheIsFilledReadAndRepaired) {
   EXPECT_EQ(prepare_centrelines(mesh, folder / "taken/by/nothing")->branches().size(), 1U);
 }
 
-TEST(CentrelineFile, AWallWithThicknessHasNoLumenToFollow) {
-  VesselMesh mesh = tube();
-  mesh.repaired.report.wall_with_thickness = true;
-  EXPECT_TRUE(prepare_centrelines(mesh, {})->branches().empty());
-}
-
 TEST(CentrelineFile, VtpHoldsLinesDataAndNames) {
   const TemporaryFolder folder;
   const auto tree = prepare_centrelines(tube(), {});

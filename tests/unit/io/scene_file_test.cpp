@@ -200,9 +200,11 @@ INSTANTIATE_TEST_SUITE_P(
     Table, BadScenes,
     ::testing::Values(
         BadScene{"schema = 1", "schema = 1\ntarget = { within_radii = 1.0 }",
-                 "s.toml: target is given neither branch nor near_mm; must be given one of the two"},
-        BadScene{"schema = 1", "schema = 1\ntarget = { branch = \"1\", near_mm = [1, 2, 3] }",
-                 "s.toml: target is given both a branch and a point; must be given one of the two"},
+                 "s.toml: target is given no branch, near_mm or opening; must be given one of branch, "
+                 "near_mm and opening"},
+        BadScene{
+            "schema = 1", "schema = 1\ntarget = { branch = \"1\", near_mm = [1, 2, 3] }",
+            "s.toml: target is given more than one place; must be given one of branch, near_mm and opening"},
         BadScene{
             "schema = 1", "schema = 1\ntarget = { branch = \"\" }",
             "s.toml: target.branch is empty; must be the name of a branch, as endowire inspect lists it"},
@@ -215,7 +217,8 @@ INSTANTIATE_TEST_SUITE_P(
                  "s.toml: vessels is unknown; known here: schema, title, vessel, access, environment, wall, "
                  "rods, solver, instrument, simulation, motion, target"},
         BadScene{"generate = ", "genrate = ",
-                 "s.toml: vessel.genrate is unknown; known here: file, unit, generate, seed, open_ends, "
+                 "s.toml: vessel.genrate is unknown; known here: file, unit, threshold, threshold_high, "
+                 "label, smooth, keep, generate, seed, open_ends, "
                  "parameters, stenosis, aneurysm"},
         BadScene{"\"aortic_arch\"", "\"tube\"",
                  "s.toml: vessel.generate is \"tube\"; must be one of \"aortic_arch\", \"iliofemoral\", "

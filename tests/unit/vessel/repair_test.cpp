@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <numbers>
 
 #include "endowire/base/error.hpp"
 #include "endowire/vessel/closure.hpp"
@@ -62,18 +63,6 @@ TEST(Repair, OrderOfTrianglesChangesNothing) {
   EXPECT_EQ(content_hash(a.mesh), content_hash(b.mesh));
 }
 
-TEST(Repair, AnEnclosedSurfaceIsAWall) {
-  TriangleMesh mesh = test::sphere(12.0, 3);
-  const TriangleMesh inner = test::sphere(10.0, 3);
-  const auto shift = static_cast<std::int32_t>(mesh.vertices_mm.size());
-  mesh.vertices_mm.insert(mesh.vertices_mm.end(), inner.vertices_mm.begin(), inner.vertices_mm.end());
-  for (const auto& t : inner.triangles) mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
-  const RepairedMesh repaired = repair(mesh, "m");
-  EXPECT_TRUE(repaired.report.wall_with_thickness);
-  EXPECT_EQ(repaired.report.components, 2U);
-  EXPECT_NEAR(repaired.report.volume_mm3, 4.19 * (1728.0 - 1000.0), 120.0);
-}
-
 TEST(Repair, OpenTubeHasTwoOpenings) {
   const RepairedMesh repaired = repair(test::open_tube(5.0, 40.0, 24, 20), "m");
   ASSERT_EQ(repaired.openings.size(), 2U);
@@ -101,12 +90,43 @@ TEST(Repair, MissingTrianglesInAWallArePinHoles) {
   expect_watertight(close_surface(repaired, 60.0).mesh);
 }
 
-TEST(Repair, CountsEdgesOfThreeTriangles) {
-  TriangleMesh mesh = test::sphere(10.0, 3);
-  const auto apex = static_cast<std::int32_t>(mesh.vertices_mm.size());
-  mesh.vertices_mm.emplace_back(20.0, 20.0, 20.0);
-  mesh.triangles.push_back({mesh.triangles[0][0], mesh.triangles[0][1], apex});
-  EXPECT_EQ(repair(mesh, "m").report.non_manifold_edges, 1U);
+TEST(Repair, DebrisGoesAndASecondVesselStays) {
+  TriangleMesh mesh = test::closed_tube(8.0, 100.0, 32, 20);
+  test::add_mesh(mesh, test::closed_tube(1.0, 40.0, 16, 20), {30.0, 0.0, 0.0});
+  test::add_mesh(mesh, test::sphere(0.3, 1), {-20.0, 5.0, 7.0});
+  const RepairedMesh repaired = repair(mesh, "m");
+  EXPECT_EQ(repaired.report.components_in_file, 3U);
+  EXPECT_EQ(repaired.report.components, 2U);
+  ASSERT_EQ(repaired.report.debris.count, 1U);
+  EXPECT_LT((repaired.report.debris.first_mm[0] - Eigen::Vector3d(-20.0, 5.0, 7.0)).norm(), 0.31);
+}
+
+TEST(Repair, ASurfaceOfOneSideIsRefusedWithItsPlace) {
+  TriangleMesh strip;  // half a turn around z
+  constexpr int steps = 40;
+  for (int i = 0; i < steps; ++i) {
+    const double u = 2.0 * std::numbers::pi * i / steps;
+    for (const double side : {-5.0, 5.0})
+      strip.vertices_mm.emplace_back((30.0 + side * std::cos(u / 2)) * std::cos(u),
+                                     (30.0 + side * std::cos(u / 2)) * std::sin(u), side * std::sin(u / 2));
+  }
+  for (int i = 0; i < steps; ++i) {
+    const bool last = i == steps - 1;  // the ends meet crosswise
+    const int a = 2 * i;
+    const int b = 2 * i + 1;
+    const int c = last ? 1 : 2 * i + 2;
+    const int d = last ? 0 : 2 * i + 3;
+    strip.triangles.push_back({a, c, b});
+    strip.triangles.push_back({b, c, d});
+  }
+  try {
+    static_cast<void>(repair(strip, "strip.stl"));
+    ADD_FAILURE() << "accepted";
+  } catch (const base::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("strip.stl: the surface has one side only"), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find(") mm"), std::string::npos) << error.what();
+  }
 }
 
 TEST(Repair, RefusesAbsurdSizesAndNamesTheUnit) {

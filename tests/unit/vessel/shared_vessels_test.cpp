@@ -65,7 +65,7 @@ TEST(SharedVessels, OpeningsOfTheFineMeshAreFourAndItsPinHolesToo) {
   const RepairedMesh repaired = repair(parse_stl(bytes, path), path);
   EXPECT_EQ(repaired.openings.size(), 4U);
   EXPECT_EQ(repaired.pin_holes.size(), 4U);
-  EXPECT_EQ(repaired.report.non_manifold_edges, 6U);
+  EXPECT_EQ(repaired.report.non_manifold_edges.count, 6U);
 }
 
 }  // namespace
