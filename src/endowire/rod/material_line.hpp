@@ -7,10 +7,21 @@
 
 namespace endowire::rod {
 
+/// Length over which the rest curvature changes from one section to the next.
+///
+/// A tip is shaped over a mandrel, and a wire of about 1 mm cannot change its curvature within less than about its own
+/// diameter on either side. Without it the energy has a kink in the length of wire inserted, where the end of a curved tip lies at the end of
+/// the sheath, and Newton's method goes to and fro. Much longer, and tips of a few millimetres are no longer arcs.
+inline constexpr double kRestRamp_mm = 2.0;
+
 /// The instrument as functions of the material arc s [mm] from the tip, and their exact integrals.
 ///
 /// Rigidities over a stretch are those of springs in series: length over the integral of the compliance, in
 /// closed form for linear tapers. Behind the last section the last values hold.
+///
+/// The rest curvature does not jump where sections meet: it changes linearly over kRestRamp_mm, half of it on
+/// either side, and over less where a section is shorter than that. The turn of the unloaded wire over both sections stays
+/// what the sections say.
 class MaterialLine {
  public:
   /// @throws base::InputError as Instrument::validate.
@@ -36,15 +47,33 @@ class MaterialLine {
   [[nodiscard]] double friction(double arc_mm) const;
   /// κ0 as a vector in the material frame.
   [[nodiscard]] Eigen::Vector2d rest_curvature_per_mm(double arc_mm) const;
+  /// dκ0/ds.
+  [[nodiscard]] Eigen::Vector2d rest_curvature_slope_per_mm2(double arc_mm) const;
 
  private:
+  /// Where two sections meet: κ0 of the one on the hand's side less that of the other, spread over ± half_mm.
+  struct Ramp {
+    double half_mm = 0.0;
+    Eigen::Vector2d jump_per_mm = Eigen::Vector2d::Zero();
+  };
+  /// A ramp that an arc lies in, and how far behind its middle; none when `ramp` is null.
+  struct OnRamp {
+    const Ramp* ramp = nullptr;
+    double behind_mm = 0.0;
+  };
+
+  [[nodiscard]] OnRamp ramp_at(double arc_mm) const;
+  [[nodiscard]] Eigen::Vector2d ramp_bend_rad(double arc_mm) const;
   [[nodiscard]] std::size_t section_at(double arc_mm) const;
   [[nodiscard]] double taper_at(const Taper Section::*taper, double arc_mm) const;
   template <typename Integrand>
   double over_sections(double from_mm, double to_mm, Integrand integrand) const;
 
   Instrument instrument_;
-  std::vector<double> start_mm_;  ///< arc at which each section begins
+  std::vector<double> start_mm_;              ///< arc at which each section begins
+  std::vector<Ramp> ramps_;                   ///< at the start of each section
+  std::vector<Eigen::Vector2d> rest_per_mm_;  ///< κ0 of each section
+  double curved_to_mm_ = 0.0;                 ///< from here on the unloaded wire is straight
   double length_mm_ = 0.0;
 };
 

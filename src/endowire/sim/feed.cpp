@@ -42,6 +42,10 @@ void add_joint(const rod::MaterialLine& line, const rod::ChainMaterial& material
     return Eigen::Vector2d(span.to_rate * property(span.to_mm) - span.from_rate * property(span.from_mm));
   };
   const Eigen::Vector2d rest = rate([&](double arc) { return line.rest_curvature_per_mm(arc); });
+  // d²κ̄/dL²: where rest curvature changes along the wire.
+  const Eigen::Vector2d rest_slope =
+      span.to_rate * span.to_rate * line.rest_curvature_slope_per_mm2(span.to_mm) -
+      span.from_rate * span.from_rate * line.rest_curvature_slope_per_mm2(span.from_mm);
   const Eigen::Vector2d compliances = rate([&](double arc) {
     return Eigen::Vector2d(1.0 / line.flexural_rigidity_n_mm2(arc), 1.0 / line.torsional_rigidity_n_mm2(arc));
   });
@@ -52,8 +56,9 @@ void add_joint(const rod::MaterialLine& line, const rod::ChainMaterial& material
   const int u = 4 * (shape.rods() - 1);
   gradient[at(u)] += by_rest - d.bend_mj * bend - d.twist_mj * twist +
                      d.kink_by_span_mj_per_mm * (span.to_rate - span.from_rate);
-  hessian.lower(u, u) += 2.0 * d.bend_mj * bend * bend + 2.0 * d.twist_mj * twist * twist -
-                         2.0 * by_rest * bend + rest.dot(joint.bend_n_mm2.cwiseProduct(rest)) / joint.span_mm;
+  hessian.lower(u, u) +=
+      2.0 * d.bend_mj * bend * bend + 2.0 * d.twist_mj * twist * twist - 2.0 * by_rest * bend +
+      rest.dot(joint.bend_n_mm2.cwiseProduct(rest)) / joint.span_mm + d.rest_gradient.dot(rest_slope);
   // Bending and twist soften at nearly the same rate along real wires.
   const rod::Turns mixed = d.rest_turn.transpose() * rest - bend * d.gradient;
   const auto lever = [&](int rod) {

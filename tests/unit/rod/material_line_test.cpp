@@ -50,6 +50,22 @@ Place place_at(const Instrument& w, double arc) {
   return {nullptr, 0.0};
 }
 
+/// Rest curvature from the definition: κ0 of the section, but within 1 mm of a border linear from the one to the other.
+Eigen::Vector2d rest_at(const Instrument& w, double arc) {
+  const auto own = [&](double s) {
+    const Section& section = *place_at(w, s).section;
+    return Eigen::Vector2d(section.rest_curvature_per_mm * std::cos(section.rest_plane_rad),
+                           section.rest_curvature_per_mm * std::sin(section.rest_plane_rad));
+  };
+  double border = 0.0;
+  for (std::size_t k = 0; k + 1 < w.sections.size(); ++k) {
+    border += w.sections[k].length_mm;
+    const double along = 0.5 * (arc - border + 1.0);
+    if (along > 0.0 && along < 1.0) return own(border - 1.0) * (1.0 - along) + own(border + 1.0) * along;
+  }
+  return own(arc);
+}
+
 double value(const Taper& t, double f) {
   return t.at_tip_side + f * (t.at_hand_side - t.at_tip_side);
 }
@@ -93,21 +109,18 @@ TEST_P(Stretch, IntegralsAgreeWithQuadrature) {
               }),
               tolerance * length);
   const Eigen::Vector2d bend = line.rest_bend_rad(from, to);
-  EXPECT_NEAR(bend.x(), over([](const Section& s, double) {
-                return s.rest_curvature_per_mm * std::cos(s.rest_plane_rad);
-              }),
-              tolerance * length);
-  EXPECT_NEAR(bend.y(), over([](const Section& s, double) {
-                return s.rest_curvature_per_mm * std::sin(s.rest_plane_rad);
-              }),
-              tolerance * length);
+  for (int c = 0; c < 2; ++c) {
+    EXPECT_NEAR(bend[c], quadrature(from, to, [&](double arc) { return rest_at(w, arc)[c]; }),
+                tolerance * length);
+  }
 }
 
 // Within a section, to a border, over one, over all, beyond the end, wholly beyond the end.
 INSTANTIATE_TEST_SUITE_P(All, Stretch,
                          testing::Values(std::pair{1.0, 4.0}, std::pair{2.0, 7.0}, std::pair{7.0, 9.0},
                                          std::pair{6.5, 7.5}, std::pair{0.0, 30.0}, std::pair{8.0, 16.0},
-                                         std::pair{28.0, 36.0}, std::pair{33.0, 40.0}));
+                                         std::pair{28.0, 36.0}, std::pair{33.0, 40.0}, std::pair{6.2, 6.9},
+                                         std::pair{7.1, 17.3}));
 
 // At a border the section behind it holds; behind the wire its last values. Breaks with ≤ in place of <.
 TEST(MaterialLine, PointValuesAtBordersAndBeyond) {
@@ -123,6 +136,52 @@ TEST(MaterialLine, PointValuesAtBordersAndBeyond) {
   EXPECT_LT((line.rest_curvature_per_mm(3.0) - Eigen::Vector2d(-0.02, 0.0)).norm(), 1e-15);
   EXPECT_LT((line.rest_curvature_per_mm(20.0) - 0.02 * Eigen::Vector2d(std::cos(1.4), std::sin(1.4))).norm(),
             1e-15);
+}
+
+// Breaks when a ramp moves the turn of the unloaded wire instead of spreading it.
+TEST(MaterialLine, RampsKeepTheTurnOfTheUnloadedWire) {
+  const Instrument w = three_sections();
+  const MaterialLine line(w);
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const Section& s : w.sections) {
+    sum += s.length_mm * s.rest_curvature_per_mm *
+           Eigen::Vector2d(std::cos(s.rest_plane_rad), std::sin(s.rest_plane_rad));
+  }
+  EXPECT_LT((line.rest_bend_rad(0.0, 30.0) - sum).norm(), 1e-15);
+}
+
+// Breaks when the curvature jumps at a border or at the end of a ramp, or when its slope is not that of the curvature.
+TEST(MaterialLine, RestCurvatureIsContinuousAndItsSlopeIsItsDerivative) {
+  const MaterialLine line(three_sections());
+  constexpr double kStep_mm = 1e-4;
+  double met = 0.0;
+  for (double arc = 0.05005; arc < 30.0; arc += 0.01) {
+    const Eigen::Vector2d change =
+        line.rest_curvature_per_mm(arc + kStep_mm) - line.rest_curvature_per_mm(arc);
+    const Eigen::Vector2d slope = line.rest_curvature_slope_per_mm2(arc);
+    EXPECT_LT((change - kStep_mm * slope).norm(), 1e-14) << arc;
+    met = std::max(met, slope.norm());
+  }
+  EXPECT_NEAR(met, 0.02 / kRestRamp_mm, 1e-12);
+  for (const double end : {6.0, 7.0, 8.0, 16.0, 17.0, 18.0}) {
+    EXPECT_LT((line.rest_curvature_per_mm(end + 1e-9) - line.rest_curvature_per_mm(end - 1e-9)).norm(), 1e-9);
+  }
+}
+
+// A ramp never passes the middle of a section, and behind the last curved one the wire is straight to the bit.
+TEST(MaterialLine, RampsOfShortSectionsAreShorter) {
+  Instrument w = three_sections();
+  w.sections[0].length_mm = 0.6;
+  w.sections[1].length_mm = 40.0;
+  w.sections[2].rest_curvature_per_mm = 0.0;
+  w.sections[1].rest_curvature_per_mm = 0.0;
+  const MaterialLine line(w);
+  EXPECT_NEAR(line.rest_curvature_per_mm(0.29).x(), -0.02, 1e-15);
+  EXPECT_NEAR(line.rest_curvature_per_mm(0.6).x(), -0.01, 1e-15);
+  EXPECT_NEAR(line.rest_bend_rad(0.0, 5.0).x(), -0.012, 1e-15);
+  EXPECT_NE(line.rest_bend_rad(0.89, 5.0).x(), 0.0);
+  EXPECT_EQ(line.rest_bend_rad(0.9, 70.0).norm(), 0.0);
+  EXPECT_EQ(line.rest_curvature_per_mm(0.9).norm(), 0.0);
 }
 
 // Breaks when only one end of the stretch is looked at.

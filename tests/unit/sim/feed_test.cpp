@@ -149,12 +149,39 @@ TEST_F(Sheathed, ATrialThatIsNotTakenChangesNothing) {
   EXPECT_NEAR(problem_.energy_mj(), energy, 1e-12 * energy);
 }
 
-// On a uniform wire without a kink nothing is left out of the feed's row.
 class SheathedUniform : public Sheathed {
  protected:
   SheathedUniform() : Sheathed(test::uniform_wire(8.0, 6.0, 200.0)) {}
 };
 
+class SheathedAtARamp : public Sheathed {
+ protected:
+  SheathedAtARamp() : Sheathed(wire_with_a_ramp()) {}
+  /// Where this wire leaves the sheath its rest curvature is on the way to none.
+  static rod::Instrument wire_with_a_ramp() {
+    rod::Instrument wire = test::uniform_wire(8.0, 6.0, 21.0);
+    wire.sections.push_back(wire.sections[0]);
+    wire.sections[1].length_mm = 200.0;
+    wire.sections[0].rest_curvature_per_mm = 0.08;
+    wire.sections[0].rest_plane_rad = 0.4;
+    return wire;
+  }
+};
+
+// Breaks without the slope of the rest curvature in the feed's Hessian.
+TEST_F(SheathedAtARamp, SecondDerivativeOfTheFeed) {
+  lay(0.2, 7);
+  std::fill(direction_.begin(), direction_.end(), 0.0);
+  direction_[20] = 1.0;
+  math::BandMatrix hessian;
+  hessian.resize(problem_.unknowns());
+  std::vector<double> gradient(direction_.size(), 0.0);
+  const double energy = problem_.linearise(hessian, gradient);
+  test::expect_taylor([&](double h) { return energy_at(h); }, gradient[20],
+                      test::quadratic(hessian, direction_), energy, "feed", 0.05);
+}
+
+// On a uniform wire without a kink nothing is left out of the feed's row.
 TEST_F(SheathedUniform, HessianOfTheFeed) {
   lay(0.2, 7);
   std::fill(direction_.begin(), direction_.end(), 0.0);
