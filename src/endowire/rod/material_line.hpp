@@ -16,8 +16,7 @@ inline constexpr double kRestRamp_mm = 2.0;
 
 /// The instrument as functions of the material arc s [mm] from the tip, and their exact integrals.
 ///
-/// Rigidities over a stretch are those of springs in series: length over the integral of the compliance, in
-/// closed form for linear tapers. Behind the last section the last values hold.
+/// Rigidities over a stretch are those of springs in series: length over the integral of the compliance. Behind the last section the last values hold.
 ///
 /// The rest curvature does not jump where sections meet: it changes linearly over kRestRamp_mm, half of it on
 /// either side, and over less where a section is shorter than that. The turn of the unloaded wire over both sections stays
@@ -30,7 +29,10 @@ class MaterialLine {
   [[nodiscard]] const Instrument& instrument() const { return instrument_; }
   [[nodiscard]] double length_mm() const { return length_mm_; }
 
+  /// EI₁; the same in both directions but where a section is not round.
   [[nodiscard]] double flexural_rigidity_n_mm2(double from_mm, double to_mm) const;
+  /// EI₁, EI₂.
+  [[nodiscard]] Eigen::Vector2d flexural_rigidities_n_mm2(double from_mm, double to_mm) const;
   [[nodiscard]] double torsional_rigidity_n_mm2(double from_mm, double to_mm) const;
   [[nodiscard]] double axial_rigidity_n(double from_mm, double to_mm) const;
   /// Turn of the unloaded wire from one arc to the other, in the material frame [rad].
@@ -42,9 +44,13 @@ class MaterialLine {
 
   // At one arc.
   [[nodiscard]] double flexural_rigidity_n_mm2(double arc_mm) const;
+  [[nodiscard]] Eigen::Vector2d flexural_rigidities_n_mm2(double arc_mm) const;
   [[nodiscard]] double torsional_rigidity_n_mm2(double arc_mm) const;
   [[nodiscard]] double radius_mm(double arc_mm) const;
   [[nodiscard]] double friction(double arc_mm) const;
+  [[nodiscard]] double linear_density_g_per_mm(double arc_mm) const;
+  [[nodiscard]] double kink_per_mm(double arc_mm) const;
+  [[nodiscard]] double radiopacity(double arc_mm) const;
   /// κ0 as a vector in the material frame.
   [[nodiscard]] Eigen::Vector2d rest_curvature_per_mm(double arc_mm) const;
   /// dκ0/ds.
@@ -62,18 +68,28 @@ class MaterialLine {
     double behind_mm = 0.0;
   };
 
+  /// The tapers of a section, ready to be evaluated.
+  struct Profiles {
+    Profile bending, twisting, stretching, radius, density, kink, radiopacity;
+    explicit Profiles(const Section& section);
+  };
+
   [[nodiscard]] OnRamp ramp_at(double arc_mm) const;
   [[nodiscard]] Eigen::Vector2d ramp_bend_rad(double arc_mm) const;
   [[nodiscard]] std::size_t section_at(double arc_mm) const;
-  [[nodiscard]] double taper_at(const Taper Section::*taper, double arc_mm) const;
+  [[nodiscard]] double value_at(Profile Profiles::*profile, double arc_mm) const;
+  [[nodiscard]] double in_series(Profile Profiles::*profile, double from_mm, double to_mm) const;
+  [[nodiscard]] Eigen::Vector2d section_rest_per_mm(std::size_t section, double arc_mm) const;
   template <typename Integrand>
-  double over_sections(double from_mm, double to_mm, Integrand integrand) const;
+  void over_sections(double from_mm, double to_mm, Integrand integrand) const;
 
   Instrument instrument_;
-  std::vector<double> start_mm_;              ///< arc at which each section begins
+  std::vector<double> start_mm_;  ///< arc at which each section begins
+  std::vector<Profiles> profiles_;
   std::vector<Ramp> ramps_;                   ///< at the start of each section
-  std::vector<Eigen::Vector2d> rest_per_mm_;  ///< κ0 of each section
+  std::vector<Eigen::Vector2d> rest_per_mm_;  ///< κ0 of each section, at its tip side
   double curved_to_mm_ = 0.0;                 ///< from here on the unloaded wire is straight
+  bool round_ = true;                         ///< all sections bend alike in both directions
   double length_mm_ = 0.0;
 };
 
