@@ -28,6 +28,8 @@ class MaterialLine {
 
   [[nodiscard]] const Instrument& instrument() const { return instrument_; }
   [[nodiscard]] double length_mm() const { return length_mm_; }
+  /// From here on the unloaded wire is straight; infinite when it never is.
+  [[nodiscard]] double curved_to_mm() const { return curved_to_mm_; }
 
   /// EI₁; the same in both directions but where a section is not round.
   [[nodiscard]] double flexural_rigidity_n_mm2(double from_mm, double to_mm) const;

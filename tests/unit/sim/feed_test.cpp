@@ -87,6 +87,33 @@ TEST_F(Sheathed, GradientOfEverythingTogether) {
   }
 }
 
+// A wire that is not round, and less so further on: both directions push at the hand in their own measure.
+class FlatSheathed : public Sheathed {
+ protected:
+  FlatSheathed() : Sheathed(flat_wire()) {}
+  static rod::Instrument flat_wire() {
+    rod::Instrument wire = varied_wire();
+    wire.sections[0].length_mm = 20.0;
+    wire.sections[0].flexural_ratio = 0.2;
+    wire.sections[1].flexural_ratio = 0.7;
+    wire.sections[1].kink_curvature_per_mm = 0.12;
+    wire.sections[1].flexural_rigidity_n_mm2 = {14.0, 90.0, 4, 3.0};
+    return wire;
+  }
+};
+
+TEST_F(FlatSheathed, GradientOfTheFeed) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    lay(0.25, seed);
+    math::BandMatrix hessian;
+    hessian.resize(problem_.unknowns());
+    std::vector<double> gradient(direction_.size(), 0.0);
+    const double energy = problem_.linearise(hessian, gradient);
+    test::expect_order([&](double h) { return energy_at(h) - energy - h * test::dot(gradient, direction_); },
+                       2.0, 1e-12 * energy, "seed " + std::to_string(seed), 0.02);
+  }
+}
+
 class RubbingSheathed : public Sheathed {
  protected:
   RubbingSheathed() : Sheathed(rubbing_wire()) {}
