@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "cli/program.hpp"
+#include "cli/vessels.hpp"
 
 namespace endowire {
 namespace {
@@ -90,6 +91,30 @@ TEST(Instruments, AFileOfOnesOwnIsShownOrRefusedInOneLine) {
   const Outcome bad = run_endowire(folder, {"instruments", "own.toml"});
   EXPECT_EQ(bad.code, 2);
   EXPECT_EQ(bad.err, "own.toml: section[0].bore_mm.value is -1; must be between 0 and 1.3334\n");
+}
+
+// The hand rests with the border between the middle and the shaft, which is four times stiffer, just at the end of the sheath, and turns.
+// Breaks when compliance jumps there: the steps that turn then do not converge.
+TEST(Instruments, ABorderOfSectionsMayRestAtTheEndOfTheSheath) {
+  const TemporaryFolder folder;
+  test::write_text(folder / "s.toml", R"(schema = 1
+[vessel]
+generate = "aortic_arch"
+[[instrument]]
+model = "microcatheter_021"
+[[motion]]
+duration_s = 10.0
+hands = [{ instrument = 1, advance_mm = 400.0, torque_deg = 0.0 }]
+[[motion]]
+duration_s = 1.0
+hands = [{ instrument = 1, advance_mm = 0.0, torque_deg = 30.0 }]
+)");
+  const Outcome outcome =
+      run_endowire(folder, {"simulate", "s.toml", "--out", "o", "--cache", test::test_cache(), "--quiet"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json summary = nlohmann::json::parse(test::read_text(folder / "o/summary.json"));
+  EXPECT_EQ(summary["converged_steps"], 403);
+  EXPECT_NEAR(summary["instruments"][0]["inserted_length_mm"].get<double>(), 400.0, 1e-3);
 }
 
 }  // namespace

@@ -7,20 +7,20 @@
 
 namespace endowire::rod {
 
-/// Length over which the rest curvature changes from one section to the next.
+/// Length over which rest curvature and compliance change from one section to the next.
 ///
-/// A tip is shaped over a mandrel, and a wire of about 1 mm cannot change its curvature within less than about its own
-/// diameter on either side. Without it the energy has a kink in the length of wire inserted, where the end of a curved tip lies at the end of
-/// the sheath, and Newton's method goes to and fro. Much longer, and tips of a few millimetres are no longer arcs.
-inline constexpr double kRestRamp_mm = 2.0;
+/// A tip is shaped over a mandrel, tubes are fused and cores ground over some length, and a wire of about 1 mm cannot change within less than about its
+/// own diameter on either side. Without it the energy has a kink in the length of wire inserted, where a border of sections lies at the end
+/// of the sheath, and Newton's method goes to and fro. Much longer, and tips of a few millimetres are no longer arcs.
+inline constexpr double kRamp_mm = 2.0;
 
 /// The instrument as functions of the material arc s [mm] from the tip, and their exact integrals.
 ///
 /// Rigidities over a stretch are those of springs in series: length over the integral of the compliance. Behind the last section the last values hold.
 ///
-/// The rest curvature does not jump where sections meet: it changes linearly over kRestRamp_mm, half of it on
-/// either side, and over less where a section is shorter than that. The turn of the unloaded wire over both sections stays
-/// what the sections say.
+/// Neither rest curvature nor compliance jump where sections meet: they change linearly over kRamp_mm, half of it on either side, and over
+/// less where a section is shorter than that. The turn of the unloaded wire and the compliance over both sections stay what the sections
+/// say.
 class MaterialLine {
  public:
   /// @throws base::InputError as Instrument::validate.
@@ -59,13 +59,15 @@ class MaterialLine {
   [[nodiscard]] Eigen::Vector2d rest_curvature_slope_per_mm2(double arc_mm) const;
 
  private:
-  /// Where two sections meet: κ0 of the one on the hand's side less that of the other, spread over ± half_mm.
+  /// Where two sections meet, by how much what lies on the hand's side is more: spread over ± a half width.
   struct Ramp {
     double half_mm = 0.0;
-    Eigen::Vector2d jump_per_mm = Eigen::Vector2d::Zero();
+    Eigen::Vector2d rest_per_mm = Eigen::Vector2d::Zero();  ///< κ0
+    double compliance_half_mm = 0.0;  ///< less than half_mm where compliance would fall below 0
+    Eigen::Vector4d compliance = Eigen::Vector4d::Zero();  ///< 1/EI₁, 1/EI₂, 1/GJ, 1/EA
   };
-  /// A ramp that an arc lies in, and how far behind its middle; none when `ramp` is null.
-  struct OnRamp {
+  /// The border next to an arc, and how far behind it the arc lies; none at the ends.
+  struct NearBorder {
     const Ramp* ramp = nullptr;
     double behind_mm = 0.0;
   };
@@ -76,12 +78,16 @@ class MaterialLine {
     explicit Profiles(const Section& section);
   };
 
-  [[nodiscard]] OnRamp ramp_at(double arc_mm) const;
-  [[nodiscard]] Eigen::Vector2d ramp_bend_rad(double arc_mm) const;
   [[nodiscard]] std::size_t section_at(double arc_mm) const;
-  [[nodiscard]] double value_at(Profile Profiles::*profile, double arc_mm) const;
-  [[nodiscard]] double in_series(Profile Profiles::*profile, double from_mm, double to_mm) const;
+  [[nodiscard]] NearBorder border_near(double arc_mm) const;
+  [[nodiscard]] Eigen::Vector2d ramp_bend_rad(double arc_mm) const;
   [[nodiscard]] Eigen::Vector2d section_rest_per_mm(std::size_t section, double arc_mm) const;
+  [[nodiscard]] Eigen::Vector4d section_compliance(std::size_t section, double arc_mm) const;
+  void lay_ramp(std::size_t section);
+  [[nodiscard]] double ramp_compliance_mm(int which, double arc_mm) const;
+  [[nodiscard]] double value_at(Profile Profiles::*profile, double arc_mm) const;
+  [[nodiscard]] double rigidity_at(Profile Profiles::*profile, int which, double arc_mm) const;
+  [[nodiscard]] double in_series(Profile Profiles::*profile, int which, double from_mm, double to_mm) const;
   template <typename Integrand>
   void over_sections(double from_mm, double to_mm, Integrand integrand) const;
 
@@ -92,6 +98,7 @@ class MaterialLine {
   std::vector<Eigen::Vector2d> rest_per_mm_;  ///< κ0 of each section, at its tip side
   double curved_to_mm_ = 0.0;                 ///< from here on the unloaded wire is straight
   bool round_ = true;                         ///< all sections bend alike in both directions
+  bool even_ = true;  ///< compliance jumps nowhere, so that ramps need not be looked up
   double length_mm_ = 0.0;
 };
 

@@ -100,6 +100,26 @@ double value(const Taper& t, double f) {
   return t.base + sign * std::pow(tip + f * (hand - tip), t.power);
 }
 
+/// Compliance from the definition: that of the section, and within 1 mm of a border linearly on to that of the other.
+double compliance_at(const Instrument& w, double arc,
+                     const std::function<double(const Section&, double)>& rigidity) {
+  std::size_t k = 0;
+  double start = 0.0;
+  while (k + 1 < w.sections.size() && arc >= start + w.sections[k].length_mm)
+    start += w.sections[k++].length_mm;
+  const auto of_section = [&](std::size_t section, double fraction) {
+    return 1.0 / rigidity(w.sections[section], fraction);
+  };
+  const double length = w.sections[k].length_mm;
+  const double behind = std::min(arc - start, length);
+  double compliance = of_section(k, behind / length);
+  if (k > 0 && behind < 1.0)
+    compliance -= 0.5 * (1.0 - behind) * (of_section(k, 0.0) - of_section(k - 1, 1.0));
+  if (k + 1 < w.sections.size() && length - behind < 1.0)
+    compliance += 0.5 * (1.0 - (length - behind)) * (of_section(k + 1, 0.0) - of_section(k, 1.0));
+  return compliance;
+}
+
 /// Midpoint rule between the borders of the sections.
 double quadrature(double from, double to, const std::function<double(double)>& f) {
   constexpr int n = 100000;
@@ -129,15 +149,18 @@ TEST_P(Stretch, IntegralsAgreeWithQuadrature) {
     });
   };
   const double length = to - from;
+  const auto series_of = [&, a = from,
+                          b = to](const std::function<double(const Section&, double)>& rigidity) {
+    return length / quadrature(a, b, [&](double arc) { return compliance_at(w, arc, rigidity); });
+  };
   const auto series = [&](Taper Section::*taper) {
-    return length / over([&](const Section& s, double f) { return 1.0 / value(s.*taper, f); });
+    return series_of([&](const Section& s, double f) { return value(s.*taper, f); });
   };
   const double tolerance = 1e-8;
   EXPECT_NEAR(line.flexural_rigidity_n_mm2(from, to) / series(&Section::flexural_rigidity_n_mm2), 1.0,
               tolerance);
-  const double soft = length / over([&](const Section& s, double f) {
-                        return 1.0 / (s.flexural_ratio * value(s.flexural_rigidity_n_mm2, f));
-                      });
+  const double soft = series_of(
+      [&](const Section& s, double f) { return s.flexural_ratio * value(s.flexural_rigidity_n_mm2, f); });
   EXPECT_NEAR(line.flexural_rigidities_n_mm2(from, to)[0] / line.flexural_rigidity_n_mm2(from, to), 1.0,
               1e-15);
   EXPECT_NEAR(line.flexural_rigidities_n_mm2(from, to)[1] / soft, 1.0, tolerance);
@@ -207,7 +230,7 @@ TEST(MaterialLine, RestCurvatureIsContinuousAndItsSlopeIsItsDerivative) {
     EXPECT_LT((change - kStep_mm * slope).norm(), 1e-13) << arc;
     met = std::max(met, slope.norm());
   }
-  EXPECT_GT(met, 0.02 / kRestRamp_mm - 1e-12);
+  EXPECT_GT(met, 0.02 / kRamp_mm - 1e-12);
   for (const double end : {6.0, 7.0, 8.0, 16.0, 17.0, 18.0}) {
     EXPECT_LT((line.rest_curvature_per_mm(end + 1e-9) - line.rest_curvature_per_mm(end - 1e-9)).norm(), 1e-9);
   }
@@ -227,6 +250,35 @@ TEST(MaterialLine, RampsOfShortSectionsAreShorter) {
   EXPECT_NE(line.rest_bend_rad(0.89, 5.0).x(), 0.0);
   EXPECT_EQ(line.rest_bend_rad(0.9, 70.0).norm(), 0.0);
   EXPECT_EQ(line.rest_curvature_per_mm(0.9).norm(), 0.0);
+}
+
+// What a point says is what the integrals are of. Breaks when one of the two leaves out a ramp.
+TEST(MaterialLine, RigidityAtAPointIsThatOfAShortStretch) {
+  const MaterialLine line(three_cores());
+  constexpr double kShort_mm = 1e-4;
+  for (double arc = 0.013; arc < 29.9; arc += 0.37) {
+    const Eigen::Vector2d stretch = line.flexural_rigidities_n_mm2(arc - kShort_mm, arc + kShort_mm);
+    EXPECT_LT((line.flexural_rigidities_n_mm2(arc) - stretch).norm(), 1e-6 * stretch.norm()) << arc;
+    EXPECT_NEAR(line.flexural_rigidity_n_mm2(arc) / stretch[0], 1.0, 1e-6) << arc;
+    EXPECT_NEAR(
+        line.torsional_rigidity_n_mm2(arc) / line.torsional_rigidity_n_mm2(arc - kShort_mm, arc + kShort_mm),
+        1.0, 1e-6)
+        << arc;
+  }
+}
+
+// A section that stiffens a thousandfold within a millimetre of a stiff border: compliance stays above 0 all along.
+TEST(MaterialLine, RampsNeverMakeAComplianceNegative) {
+  Instrument w = three_sections();
+  w.sections[0].length_mm = 2.0;
+  w.sections[0].flexural_rigidity_n_mm2 = {1000.0, 1.0};
+  w.sections[1].flexural_rigidity_n_mm2 = {1000.0, 1.0};
+  w.sections[1].length_mm = 2.0;
+  const MaterialLine line(w);
+  for (double arc = 0.0; arc < 10.0; arc += 0.01) {
+    EXPECT_GT(line.flexural_rigidity_n_mm2(arc), 0.0) << arc;
+    EXPECT_GT(line.flexural_rigidity_n_mm2(arc, arc + 0.01), 0.0) << arc;
+  }
 }
 
 // Breaks when only one end of the stretch is looked at.
