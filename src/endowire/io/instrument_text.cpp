@@ -31,8 +31,9 @@ std::string without_blanks_behind(std::string row) {
 }  // namespace
 
 std::string profile_text(const rod::MaterialLine& line) {
-  std::vector<double> arcs = profile_arcs_mm(line, columns);
+  const std::vector<double> arcs = profile_arcs_mm(line, columns);
   std::vector<double> rigidity;
+  rigidity.reserve(arcs.size());
   for (const double arc : arcs) rigidity.push_back(line.flexural_rigidity_n_mm2(arc));
   const auto [least, most] = std::minmax_element(rigidity.begin(), rigidity.end());
   const double low = std::log10(*least) - 0.1;

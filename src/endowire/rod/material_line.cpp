@@ -22,8 +22,8 @@ MaterialLine::MaterialLine(Instrument instrument) : instrument_(std::move(instru
     start_mm_.push_back(length_mm_);
     length_mm_ += section.length_mm;
     profiles_.emplace_back(section);
-    rest_per_mm_.push_back(section.rest_curvature_per_mm * Eigen::Vector2d(std::cos(section.rest_plane_rad),
-                                                                           std::sin(section.rest_plane_rad)));
+    const Eigen::Vector2d direction(std::cos(section.rest_plane_rad), std::sin(section.rest_plane_rad));
+    rest_per_mm_.emplace_back(section.rest_curvature_per_mm * direction);
     round_ = round_ && section.flexural_ratio == 1.0;
   }
   ramps_.resize(sections.size());

@@ -81,9 +81,9 @@ class MaterialLine {
   [[nodiscard]] std::size_t section_at(double arc_mm) const;
   [[nodiscard]] NearBorder border_near(double arc_mm) const;
   [[nodiscard]] Eigen::Vector2d ramp_bend_rad(double arc_mm) const;
-  [[nodiscard]] Eigen::Vector2d section_rest_per_mm(std::size_t section, double arc_mm) const;
-  [[nodiscard]] Eigen::Vector4d section_compliance(std::size_t section, double arc_mm) const;
-  void lay_ramp(std::size_t section);
+  [[nodiscard]] Eigen::Vector2d section_rest_per_mm(std::size_t k, double arc_mm) const;
+  [[nodiscard]] Eigen::Vector4d section_compliance(std::size_t k, double arc_mm) const;
+  void lay_ramp(std::size_t k);
   [[nodiscard]] double ramp_compliance_mm(int which, double arc_mm) const;
   [[nodiscard]] double value_at(Profile Profiles::*profile, double arc_mm) const;
   [[nodiscard]] double rigidity_at(Profile Profiles::*profile, int which, double arc_mm) const;
