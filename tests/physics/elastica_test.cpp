@@ -103,11 +103,9 @@ void expect_second_order_of_even(Case run) {
 TEST(V16OrderOfConvergence, IsTwoForTheBuckledColumn) {
   expect_second_order_of_even(buckled_column);
 }
-#ifdef ENDOWIRE_INSTRUMENT_FILES
 TEST(V16OrderOfConvergence, IsTwoForTheThreePointBend) {
   expect_second_order_of_even(three_point_bend);
 }
-#endif
 
 }  // namespace
 }  // namespace endowire::test
