@@ -2,48 +2,104 @@
 
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "commands.hpp"
 #include "endowire/base/error.hpp"
+#include "endowire/io/file.hpp"
+#include "endowire/io/instrument_facts.hpp"
 #include "endowire/io/instrument_file.hpp"
+#include "endowire/io/instrument_picture.hpp"
+#include "endowire/io/instrument_text.hpp"
 
 namespace endowire::cli {
 
 namespace {
 
-void print_library() {
+struct Options {
+  std::string name;
+  std::string picture;
+  bool json = false;
+};
+
+std::vector<io::InstrumentFile> library() {
   const auto folders = instrument_folders();
-  for (const std::string& name : io::list_instruments(folders)) {
-    const io::InstrumentFile file = io::read_instrument_file(io::find_instrument(name, folders));
-    fmt::print("{:<28} {}\n", name, file.description);
+  std::vector<io::InstrumentFile> files;
+  for (const std::string& name : io::list_instruments(folders))
+    files.push_back(io::read_instrument_file(io::find_instrument(name, folders)));
+  return files;
+}
+
+void print_library(bool as_json) {
+  if (as_json) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const io::InstrumentFile& file : library()) list.push_back(io::facts_json(file));
+    fmt::print("{}\n", list.dump(1));
+    return;
+  }
+  fmt::print("{:<28} {:>7} {:>7} {:>9} {:>9}  {}\n", "model", "mm", "cm", "EI tip", "EI shaft",
+             "EI in N mm2, as everywhere");
+  for (const io::InstrumentFile& file : library()) {
+    const io::InstrumentFacts facts = io::facts_of(rod::MaterialLine(file.instrument));
+    fmt::print("{:<28} {:>7.3f} {:>7.0f} {:>9.3g} {:>9.4g}  {}\n", file.instrument.model, facts.diameter_mm,
+               0.1 * facts.length_mm, facts.tip_rigidity_n_mm2, facts.shaft_rigidity_n_mm2, file.description);
   }
 }
 
-void print_instrument(const std::string& name) {
+/// An instrument of the library, or of a file of one's own.
+io::InstrumentFile find(const std::string& name) {
+  if (name.ends_with(".toml")) return io::read_instrument_file(name);
   const auto folders = instrument_folders();
   const std::filesystem::path path = io::find_instrument(name, folders);
   if (path.empty()) {
     std::string known;
     for (const std::string& one : io::list_instruments(folders)) known += (known.empty() ? "" : ", ") + one;
-    throw base::InputError(fmt::format("instruments: NAME is \"{}\"; must be one of {}", name, known));
+    throw base::InputError(fmt::format(
+        "instruments: NAME is \"{}\"; must be one of {}, or the path of a .toml file", name, known));
   }
-  const io::InstrumentFile file = io::read_instrument_file(path);
+  return io::read_instrument_file(path);
+}
+
+void print_instrument(const io::InstrumentFile& file) {
+  const rod::MaterialLine line(file.instrument);
   fmt::print("{}\n{}\n{}\n\n", file.instrument.model, file.description, file.path);
+  fmt::print("{}\n{}\n{}\n", io::sections_text(line), io::profile_text(line), io::shape_text(line));
   for (const io::SourcedValue& value : file.values)
-    fmt::print("{:<44} {:<18} {}\n", value.field, value.value, value.source);
+    fmt::print("{:<44} {:<20} {}\n", value.field, value.value, value.source);
+}
+
+int run(const Options& options) {
+  if (options.name.empty()) {
+    if (!options.picture.empty())
+      throw base::InputError(
+          "instruments: --picture is given without NAME; must be left out, or drawn of one");
+    print_library(options.json);
+    return exit_success;
+  }
+  if (!options.picture.empty() && !options.picture.ends_with(".svg"))
+    throw base::InputError(
+        fmt::format("instruments: --picture is \"{}\"; must end in .svg", options.picture));
+  const io::InstrumentFile file = find(options.name);
+  if (!options.picture.empty()) io::write_file_atomically(options.picture, io::instrument_picture_svg(file));
+  if (options.json)
+    fmt::print("{}\n", io::details_json(file).dump(1));
+  else
+    print_instrument(file);
+  return exit_success;
 }
 
 }  // namespace
 
 std::function<int()> add_instruments(CLI::App& app) {
-  const auto name = std::make_shared<std::string>();
-  CLI::App* command =
-      app.add_subcommand("instruments", "the library of real wires, or one of them with its sources");
-  command->add_option("NAME", *name, "an instrument of the library");
-  return [name] {
-    name->empty() ? print_library() : print_instrument(*name);
-    return exit_success;
-  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "instruments",
+      "the library of real wires and catheters, or one of them: sections, stiffness, shape, sources");
+  command->add_option("NAME", options->name, "an instrument of the library, or the path of a .toml file");
+  command->add_option("--picture", options->picture,
+                      "also draw stiffness and unloaded shape into this SVG file");
+  command->add_flag("--json", options->json, "for programs");
+  return [options] { return run(*options); };
 }
 
 }  // namespace endowire::cli

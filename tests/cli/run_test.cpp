@@ -162,17 +162,6 @@ TEST(Inspect, WritesCentrelines) {
 #endif
 }
 
-TEST(Instruments, ListsTheLibraryAndItsSources) {
-  const TemporaryFolder folder;
-  const Outcome list = run_endowire(folder, {"instruments"});
-  EXPECT_EQ(list.code, 0);
-  EXPECT_NE(list.out.find("hydrophilic_035_angled"), std::string::npos);
-  const Outcome one = run_endowire(folder, {"instruments", "hydrophilic_035_angled"});
-  EXPECT_EQ(one.code, 0);
-  EXPECT_NE(one.out.find("section[0].rest_curvature_per_mm"), std::string::npos);
-  EXPECT_NE(one.out.find("estimate: "), std::string::npos);
-}
-
 TEST(Help, IsOnStdoutAndExitsZero) {
   const TemporaryFolder folder;
   for (const char* flag : {"--help", "--version"}) {

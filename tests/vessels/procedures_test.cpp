@@ -73,6 +73,20 @@ TEST_F(RealVessel, AWireComesToRest) {
   }
 }
 
+// The end of the curved tip comes out of the sheath at the last of these steps, where a jump of the rest curvature once made Newton go to
+// and fro.
+TEST_F(RealVessel, TheEndOfTheCurvedTipComesOutOfTheSheath) {
+  const test::Vessel* vessel = test::shared_vessel("femoral_to_neuro");
+  if (vessel == nullptr) GTEST_SKIP() << "../shared/vessels/femoral_to_neuro is not here";
+  const sim::Access access{{-44.0, 11.8, 13.8}, {-0.91, 0.01, 0.41}};
+  sim::Simulation simulation(vessel->field, test::hydrophilic_wire(), access, test::lying_patient());
+  for (int push = 1; push <= 12; ++push) {
+    const sim::StepReport& report = simulation.step({1.0, 0.0});
+    EXPECT_TRUE(report.converged) << push;
+    EXPECT_EQ(report.splits, 0) << push;
+  }
+}
+
 // Ten millimetres of advance in one command.
 TEST_F(RealVessel, LongCommandsHold) {
   hold("femoral_to_neuro", femoral(), 45, 10.0, 0);

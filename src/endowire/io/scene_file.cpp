@@ -11,6 +11,7 @@
 #include "endowire/io/file.hpp"
 #include "endowire/io/instrument_file.hpp"
 #include "endowire/io/toml_table.hpp"
+#include "endowire/rod/rest_shape.hpp"
 
 namespace endowire::io {
 
@@ -132,10 +133,31 @@ void read_access(const TomlTable& root, SceneFile& scene) {
   scene.access.direction = (direction / largest).normalized();
 }
 
+/// The tip as the user bends it.
+void shape_tip(const TomlTable& table, rod::Instrument& instrument) {
+  if (!table.has("tip_angle_deg")) {
+    for (const char* const key : {"tip_length_mm", "tip_radius_mm"})
+      if (table.has(key)) table.refuse(key, "given without tip_angle_deg", "left out, or given beside it");
+    return;
+  }
+  rod::TipBend bend;
+  const double angle_deg = table.number("tip_angle_deg", between(-270.0, 270.0));
+  if (angle_deg == 0.0) table.refuse("tip_angle_deg", "0", "another angle, or left out");
+  bend.angle_rad = angle_deg * std::numbers::pi / 180.0;
+  if (table.has("tip_length_mm") == table.has("tip_radius_mm"))
+    table.refuse("tip_length_mm", table.has("tip_length_mm") ? "given beside tip_radius_mm" : "missing",
+                 "given, or else tip_radius_mm");
+  bend.length_mm = table.has("tip_length_mm")
+                       ? table.number("tip_length_mm", between(0.5, 1000.0))
+                       : std::abs(bend.angle_rad) * table.number("tip_radius_mm", between(0.5, 1000.0));
+  rod::bend_tip(bend, table.file() + ": " + table.path_of(""), instrument);
+}
+
 rod::Instrument read_instrument(const TomlTable& root, const fs::path& folder,
                                 const std::vector<fs::path>& instrument_folders) {
   const std::vector<TomlTable> tables =
-      root.tables("instrument", {"model", "grip_force_n", "grip_torque_n_mm", "friction"});
+      root.tables("instrument", {"model", "grip_force_n", "grip_torque_n_mm", "friction", "tip_angle_deg",
+                                 "tip_length_mm", "tip_radius_mm"});
   if (tables.empty()) root.refuse_missing("instrument", "one [[instrument]]");
   if (tables.size() > 1)
     root.refuse("instrument", fmt::format("a list of {}", tables.size()),
@@ -167,6 +189,7 @@ rod::Instrument read_instrument(const TomlTable& root, const fs::path& folder,
     const double friction = table.number("friction", between(0.0, 2.0));
     for (rod::Section& section : instrument.sections) section.friction = friction;
   }
+  shape_tip(table, instrument);
   instrument.validate(table.file() + ": " + root.path_of("instrument[0]"));
   return instrument;
 }

@@ -53,7 +53,7 @@ void ChainMaterial::resize(int rods) {
 JointMaterial joint_material(const MaterialLine& line, double from_mm, double to_mm) {
   JointMaterial joint;
   joint.span_mm = to_mm - from_mm;
-  joint.bend_n_mm2.setConstant(line.flexural_rigidity_n_mm2(from_mm, to_mm));
+  joint.bend_n_mm2 = line.flexural_rigidities_n_mm2(from_mm, to_mm);
   joint.rest_bend_rad = line.rest_bend_rad(from_mm, to_mm);
   joint.twist_n_mm2 = line.torsional_rigidity_n_mm2(from_mm, to_mm);
   joint.kink_per_mm = line.kink_per_mm(from_mm, to_mm);

@@ -109,6 +109,7 @@ void add_side(const JointMaterial& material, const Side& side, const AngleFactor
     const double misfit = curvature - material.rest_bend_rad[a];
     const double stiffness = material.bend_n_mm2[a] / (2.0 * material.span_mm);
     out.energy_mj += 0.5 * stiffness * misfit * misfit;
+    out.bend_mj[a] += 0.5 * stiffness * misfit * misfit;
     out.gradient += stiffness * misfit * dk;
     out.rest_gradient[a] -= stiffness * misfit;
     out.rest_turn.row(a) -= stiffness * dk.transpose();
@@ -231,9 +232,9 @@ void joint_derivatives(const JointMaterial& material, const Frame& hand_side, co
     add_side(material, Side{p, 0, 3, 1.0}, k, dc, ddc, out);
     add_side(material, Side{pt, 3, 0, -1.0}, k, dc, ddc, out);
   }
-  out.bend_mj = out.energy_mj;
+  const double bending_mj = out.energy_mj;
   add_twist(material, p, twist_rad, dc, out);
-  out.twist_mj = out.energy_mj - out.bend_mj;
+  out.twist_mj = out.energy_mj - bending_mj;
   add_kink(material, c, dc, ddc, out);
 }
 

@@ -28,7 +28,8 @@ struct JointDerivatives {
   Turns gradient = Turns::Zero();
   Eigen::Matrix<double, 6, 6> hessian = Eigen::Matrix<double, 6, 6>::Zero();
   // Filled when asked for: what changes when the joint is made of another piece of wire.
-  double bend_mj = 0.0;                 ///< part of the energy, proportional to B/l̄
+  Eigen::Vector2d bend_mj =
+      Eigen::Vector2d::Zero();          ///< parts of the energy, proportional to EI₁/l̄ and EI₂/l̄
   double twist_mj = 0.0;                ///< part of the energy, proportional to GJ/l̄
   double kink_by_span_mj_per_mm = 0.0;  ///< ∂(l̄ w)/∂l̄
   /// ∂E/∂κ̄ and its gradient.

@@ -42,20 +42,29 @@ void add_joint(const rod::MaterialLine& line, const rod::ChainMaterial& material
     return Eigen::Vector2d(span.to_rate * property(span.to_mm) - span.from_rate * property(span.from_mm));
   };
   const Eigen::Vector2d rest = rate([&](double arc) { return line.rest_curvature_per_mm(arc); });
-  const Eigen::Vector2d compliances = rate([&](double arc) {
-    return Eigen::Vector2d(1.0 / line.flexural_rigidity_n_mm2(arc), 1.0 / line.torsional_rigidity_n_mm2(arc));
-  });
-  const double bend = compliances[0] * joint.bend_n_mm2[0] / joint.span_mm;  // C'/C
-  const double twist = compliances[1] * joint.twist_n_mm2 / joint.span_mm;   // D'/D
-  const double by_rest = d.rest_gradient.dot(rest);
+  // d²κ̄/dL²: where rest curvature changes along the wire.
+  const Eigen::Vector2d rest_slope =
+      span.to_rate * span.to_rate * line.rest_curvature_slope_per_mm2(span.to_mm) -
+      span.from_rate * span.from_rate * line.rest_curvature_slope_per_mm2(span.from_mm);
+  const Eigen::Vector2d bend =  // C'/C in both directions
+      rate([&](double arc) {
+        return Eigen::Vector2d(line.flexural_rigidities_n_mm2(arc).cwiseInverse());
+      }).cwiseProduct(joint.bend_n_mm2) /
+      joint.span_mm;
+  const double twist = (span.to_rate / line.torsional_rigidity_n_mm2(span.to_mm) -
+                        span.from_rate / line.torsional_rigidity_n_mm2(span.from_mm)) *
+                       joint.twist_n_mm2 / joint.span_mm;  // D'/D
+  const Eigen::Vector2d by_rest = d.rest_gradient.cwiseProduct(rest);
 
   const int u = 4 * (shape.rods() - 1);
-  gradient[at(u)] += by_rest - d.bend_mj * bend - d.twist_mj * twist +
+  gradient[at(u)] += by_rest.sum() - d.bend_mj.dot(bend) - d.twist_mj * twist +
                      d.kink_by_span_mj_per_mm * (span.to_rate - span.from_rate);
-  hessian.lower(u, u) += 2.0 * d.bend_mj * bend * bend + 2.0 * d.twist_mj * twist * twist -
-                         2.0 * by_rest * bend + rest.dot(joint.bend_n_mm2.cwiseProduct(rest)) / joint.span_mm;
-  // Bending and twist soften at nearly the same rate along real wires.
-  const rod::Turns mixed = d.rest_turn.transpose() * rest - bend * d.gradient;
+  hessian.lower(u, u) += 2.0 * d.bend_mj.dot(bend.cwiseProduct(bend)) + 2.0 * d.twist_mj * twist * twist -
+                         2.0 * by_rest.dot(bend) +
+                         rest.dot(joint.bend_n_mm2.cwiseProduct(rest)) / joint.span_mm +
+                         d.rest_gradient.dot(rest_slope);
+  // Bending, in both directions, and twist soften at nearly the same rate along real wires.
+  const rod::Turns mixed = d.rest_turn.transpose() * rest - bend.mean() * d.gradient;
   const auto lever = [&](int rod) {
     const double length = (shape.joints_mm[at(rod)] - shape.joints_mm[at(rod + 1)]).norm();
     return Eigen::Matrix<double, 3, 2>(shape.frames[at(rod)].leftCols<2>() / length);

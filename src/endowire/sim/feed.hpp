@@ -43,7 +43,7 @@ void fit_entering_rod(const rod::MaterialLine& line, double inserted_mm, rod::Ch
 ///
 /// Of these −E_b C'/C is the configurational force ½EIκ² of a sliding sleeve [Bigoni2015]. The column and the row of that unknown must be
 /// empty. N force in the entering rod, ε its strain, E_b, E_t bending and twist of its two joints. The gradient is exact; of the Hessian what
-/// the kink law changes along the wire is left out, and bending and twist are taken to soften at one rate, as they do in round wires of one material.
+/// the kink law changes along the wire is left out, and bending and twist are taken to soften at one rate, as they do in wires of one material.
 /// @return  energy of the grip
 double add_feed_derivatives(const Feed& feed, const rod::MaterialLine& line,
                             const rod::ChainMaterial& material, const rod::ChainShape& shape,

@@ -105,11 +105,11 @@ void add_contact(std::vector<Section>& sections) {
                       "offset c; small angles.",
                       {curved_tip_figure()},
                       curved_tip_at_a_wall()});
-  sections.push_back(
-      {"V13 Three-point bend",
-       "The bench test by which the moduli of real 0.035\" wires were measured, on wires of those moduli.",
-       {three_point_bend_figure()},
-       with_order(three_point_bend, kRods)});
+  sections.push_back({"V13 Three-point bend",
+                      "The bench test by which the moduli of real 0.035\" wires were measured, on the shafts "
+                      "of the wires of the library that were.",
+                      {three_point_bend_figure()},
+                      with_order(three_point_bend, kRods)});
 }
 
 void add_fields_and_invariance(std::vector<Section>& sections) {

@@ -43,7 +43,7 @@ TEST(InstrumentFile, ReadsTapersSourcesAndAngles) {
   EXPECT_EQ(section.flexural_rigidity_n_mm2.at_hand_side, 400.0);
   EXPECT_EQ(section.torsional_rigidity_n_mm2.at_hand_side, 5.0);
   EXPECT_DOUBLE_EQ(section.rest_plane_rad, std::numbers::pi / 2);
-  EXPECT_TRUE(std::isinf(section.kink_curvature_per_mm));
+  EXPECT_TRUE(std::isinf(section.kink_curvature_per_mm.at_tip_side));
   ASSERT_EQ(file.values.size(), 10U);
   EXPECT_EQ(file.values[4].field, "section[0].flexural_rigidity_n_mm2");
   EXPECT_EQ(file.values[4].value, "6 … 400");
@@ -56,7 +56,42 @@ TEST(InstrumentFile, JsonGivesTheSameBitsBack) {
   const rod::Instrument back = instrument_from_json(nlohmann::json::parse(to_json(instrument).dump()));
   EXPECT_EQ(to_json(back), to_json(instrument));
   EXPECT_EQ(back.sections[0].friction, 0.1 + 0.2);
-  EXPECT_TRUE(std::isinf(back.sections[0].kink_curvature_per_mm));
+  EXPECT_TRUE(std::isinf(back.sections[0].kink_curvature_per_mm.at_hand_side));
+}
+
+// What is not linear, not round and not flat goes through a recording too.
+TEST(InstrumentFile, JsonKeepsPowersRatiosHelicesAndShapeableTips) {
+  rod::Instrument instrument = parse_instrument(good, "w.toml").instrument;
+  rod::Section& section = instrument.sections[0];
+  section.flexural_rigidity_n_mm2 = {6.1, 400.3, 4, 1.7};
+  section.linear_density_g_per_mm = {1e-3, 3e-3, 2, 1e-4};
+  section.kink_curvature_per_mm = {0.7, 0.3, -1};
+  section.flexural_ratio = 0.3;
+  section.rest_torsion_per_mm = 0.01;
+  instrument.shapeable_mm = 30.0;
+  const rod::Instrument back = instrument_from_json(nlohmann::json::parse(to_json(instrument).dump()));
+  EXPECT_EQ(back.sections[0].flexural_rigidity_n_mm2, section.flexural_rigidity_n_mm2);
+  EXPECT_EQ(back.sections[0].linear_density_g_per_mm, section.linear_density_g_per_mm);
+  EXPECT_EQ(back.sections[0].kink_curvature_per_mm, section.kink_curvature_per_mm);
+  EXPECT_EQ(back.sections[0].flexural_ratio, 0.3);
+  EXPECT_EQ(back.sections[0].rest_torsion_per_mm, 0.01);
+  EXPECT_EQ(back.shapeable_mm, 30.0);
+}
+
+// Recordings of earlier versions hold numbers where there are tapers now, and none of the later fields.
+TEST(InstrumentFile, JsonOfEarlierRecordingsIsRead) {
+  nlohmann::json value = to_json(parse_instrument(good, "w.toml").instrument);
+  value.erase("shapeable_mm");
+  nlohmann::json& section = value["sections"][0];
+  section.erase("flexural_ratio");
+  section.erase("rest_torsion_per_mm");
+  section["linear_density_g_per_mm"] = 0.002;
+  section["kink_curvature_per_mm"] = nullptr;
+  section["radiopacity"] = 1.0;
+  const rod::Instrument back = instrument_from_json(value);
+  EXPECT_EQ(back.sections[0].linear_density_g_per_mm, rod::Taper(0.002));
+  EXPECT_TRUE(std::isinf(back.sections[0].kink_curvature_per_mm.at_tip_side));
+  EXPECT_EQ(back.shapeable_mm, 0.0);
 }
 
 struct BadInstrument {
@@ -92,12 +127,14 @@ INSTANTIATE_TEST_SUITE_P(
                       "be alone, or left out"},
         BadInstrument{"value = 0.05", "value = 3",
                       "w.toml: section[0].friction.value is 3; must be between 0 and 2"},
-        BadInstrument{"friction = {", "fricton = {",
-                      "w.toml: section[0].fricton is unknown; known here: length_mm, radius_mm, "
-                      "flexural_rigidity_n_mm2, "
-                      "torsional_rigidity_n_mm2, axial_rigidity_n, linear_density_g_per_mm, friction, "
-                      "rest_curvature_per_mm, "
-                      "rest_plane_deg, kink_curvature_per_mm, radiopacity"},
+        BadInstrument{
+            "friction = {", "fricton = {",
+            "w.toml: section[0].fricton is unknown; known here: length_mm, radius_mm, "
+            "flexural_rigidity_n_mm2, "
+            "torsional_rigidity_n_mm2, axial_rigidity_n, linear_density_g_per_mm, friction, "
+            "rest_curvature_per_mm, "
+            "rest_plane_deg, kink_curvature_per_mm, radiopacity, flexural_ratio, core, core_diameter_mm, "
+            "bore_mm, coat"},
         BadInstrument{"friction = { value = 0.05, source = \"book\" }\n", "",
                       "w.toml: section[0].friction is missing; must be { value = …, source = \"…\" } with a "
                       "value between 0 and 2"},
@@ -125,7 +162,7 @@ TEST(InstrumentFile, WithoutSectionsIsRefused) {
 
 TEST(InstrumentLibrary, EveryFileIsReadableAndCarriesItsName) {
   const std::vector<std::string> names = list_instruments({library});
-  ASSERT_GE(names.size(), 2U);
+  ASSERT_GE(names.size(), 30U);
   for (const std::string& name : names) {
     const InstrumentFile file = read_instrument_file(find_instrument(name, {library}));
     EXPECT_EQ(file.instrument.model, name);

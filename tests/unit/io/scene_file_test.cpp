@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "endowire/base/error.hpp"
+#include "endowire/io/instrument_file.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace endowire::io {
@@ -119,6 +120,50 @@ TEST(SceneFile, OverridesReachEverySection) {
   const rod::Instrument instrument = parse_scene(text, "s.toml", library).instrument;
   EXPECT_EQ(instrument.grip_force_n, 5.0);
   for (const rod::Section& section : instrument.sections) EXPECT_EQ(section.friction, 0.3);
+}
+
+/// The good scene with a wire that can be shaped, and lines for its table.
+std::string shapeable(const std::string& lines) {
+  std::string text = replaced("[simulation]", lines + "\n[simulation]");
+  return text.replace(text.find("hydrophilic_035_straight"), 24, "coronary_014_floppy");
+}
+
+TEST(SceneFile, TheTipIsBentAsTheSceneSays) {
+  for (const char* const lines : {"tip_angle_deg = 45.0\ntip_length_mm = 3.0",
+                                  "tip_angle_deg = 45.0\ntip_radius_mm = 3.819718634205488"}) {
+    const rod::Instrument wire = parse_scene(shapeable(lines), "s.toml", library).instrument;
+    EXPECT_NEAR(wire.sections[0].length_mm, 3.0, 1e-12);
+    EXPECT_NEAR(wire.sections[0].rest_curvature_per_mm, std::numbers::pi / 4.0 / 3.0, 1e-12);
+    EXPECT_EQ(wire.sections[1].rest_curvature_per_mm, 0.0);
+    EXPECT_NEAR(wire.length_mm(), 1900.0, 1e-9);
+  }
+}
+
+TEST(SceneFile, ATipIsNotBentFurtherThanItGoes) {
+  EXPECT_EQ(
+      test::message_of<base::InputError>([&] {
+        static_cast<void>(
+            parse_scene(shapeable("tip_angle_deg = 45.0\ntip_length_mm = 25.0"), "s.toml", library));
+      }),
+      "s.toml: instrument[0].tip_length_mm is 25; must be <= 20, what can be shaped of coronary_014_floppy");
+  const std::string sharp = test::message_of<base::InputError>([&] {
+    static_cast<void>(parse_scene(shapeable("tip_angle_deg = 90.0\ntip_length_mm = 0.9"), "s.toml", library));
+  });
+  EXPECT_EQ(sharp,
+            "s.toml: instrument[0]: section[0].kink_curvature_per_mm is 1.6; must be > 1.2 times "
+            "rest_curvature_per_mm");
+}
+
+TEST(SceneFile, AnUnknownInstrumentIsAnsweredWithTheLibrary) {
+  std::string known;
+  for (const std::string& name : list_instruments(library)) known += (known.empty() ? "" : ", ") + name;
+  for (const char* const model : {"no_such_wire", "../instruments/hydrophilic_035_straight"}) {
+    std::string text = replaced("hydrophilic_035_straight", model);
+    EXPECT_EQ(
+        test::message_of<base::InputError>([&] { static_cast<void>(parse_scene(text, "s.toml", library)); }),
+        "s.toml: instrument[0].model is \"" + std::string(model) + "\"; must be one of " + known +
+            ", or the path of a .toml file");
+  }
 }
 
 TEST(SceneFile, VesselAndInstrumentPathsAreRelativeToTheScene) {
@@ -263,12 +308,6 @@ INSTANTIATE_TEST_SUITE_P(
                  "s.toml: access is given both an opening and a position; must be given one of the two"},
         BadScene{"position_mm = [1.0, 2.0, 3.0]\ndirection = [0.0, 0.0, 2.0]", "opening = 0",
                  "s.toml: access.opening is 0; must be an integer between 1 and 10000"},
-        BadScene{"hydrophilic_035_straight", "no_such_wire",
-                 "s.toml: instrument[0].model is \"no_such_wire\"; must be one of hydrophilic_035_angled, "
-                 "hydrophilic_035_straight, or the path of a .toml file"},
-        BadScene{"hydrophilic_035_straight", "../instruments/hydrophilic_035_straight",
-                 "s.toml: instrument[0].model is \"../instruments/hydrophilic_035_straight\"; must be one of "
-                 "hydrophilic_035_angled, hydrophilic_035_straight, or the path of a .toml file"},
         BadScene{
             "hydrophilic_035_straight", "none.toml",
             "s.toml: instrument[0].model is \"none.toml\"; must be an existing file (none.toml is none)"},
@@ -276,6 +315,18 @@ INSTANTIATE_TEST_SUITE_P(
                  "s.toml: instrument is a list of 2; must be one: this version simulates one instrument"},
         BadScene{"[simulation]", "friction = -0.1\n[simulation]",
                  "s.toml: instrument[0].friction is -0.1; must be between 0 and 2"},
+        BadScene{"[simulation]", "tip_angle_deg = 30\ntip_length_mm = 5\n[simulation]",
+                 "s.toml: instrument[0].tip_angle_deg is 30; must be left out: the tip of "
+                 "hydrophilic_035_straight "
+                 "cannot be shaped"},
+        BadScene{
+            "[simulation]", "tip_length_mm = 5\n[simulation]",
+            "s.toml: instrument[0].tip_length_mm is given without tip_angle_deg; must be left out, or given "
+            "beside it"},
+        BadScene{"[simulation]", "tip_angle_deg = 30\n[simulation]",
+                 "s.toml: instrument[0].tip_length_mm is missing; must be given, or else tip_radius_mm"},
+        BadScene{"[simulation]", "tip_angle_deg = 300\ntip_length_mm = 5\n[simulation]",
+                 "s.toml: instrument[0].tip_angle_deg is 300; must be between -270 and 270"},
         BadScene{"[simulation]", "grip_force_n = 0\n[simulation]",
                  "s.toml: instrument[0].grip_force_n is 0; must be > 0"},
         BadScene{"max_advance_mm = 2.0", "max_advance_mm = 11",

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 #include "endowire/base/error.hpp"
 #include "support/wires.hpp"
@@ -34,6 +36,22 @@ Instrument three_sections() {
   return w;
 }
 
+/// The same lengths, as a core in a coat tapers: powers, with and without a base, the last section not round and on a helix.
+Instrument three_cores() {
+  Instrument w = three_sections();
+  w.sections[0].flexural_rigidity_n_mm2 = {2.0, 160.0, 4};
+  w.sections[0].torsional_rigidity_n_mm2 = {2.0, 100.0, 4, 0.5};
+  w.sections[0].axial_rigidity_n = {300.0, 2400.0, 2};
+  w.sections[1].flexural_rigidity_n_mm2 = {8.0, 2.0, 4, 1.5};
+  w.sections[1].axial_rigidity_n = {2000.0, 1000.0, 2, 700.0};
+  w.sections[1].linear_density_g_per_mm = {4e-3, 2e-3, 2, 5e-3};
+  w.sections[1].kink_curvature_per_mm = {0.9, 0.3, -1};
+  w.sections[2].flexural_ratio = 0.2;
+  w.sections[2].linear_density_g_per_mm = {1e-3, 3e-3, 4, 5e-4};
+  w.sections[2].rest_torsion_per_mm = 0.3;
+  return w;
+}
+
 /// Section and fraction at an arc, written again from the definition; behind the end the last values hold.
 struct Place {
   const Section* section;
@@ -50,24 +68,79 @@ Place place_at(const Instrument& w, double arc) {
   return {nullptr, 0.0};
 }
 
+/// Rest curvature from the definition: κ0 of the section, and within 1 mm of a border linearly on to that of the other.
+Eigen::Vector2d rest_at(const Instrument& w, double arc) {
+  const auto of_section = [&](std::size_t k, double behind) {
+    const Section& section = w.sections[k];
+    const double plane = section.rest_plane_rad + section.rest_torsion_per_mm * behind;
+    return Eigen::Vector2d(section.rest_curvature_per_mm * std::cos(plane),
+                           section.rest_curvature_per_mm * std::sin(plane));
+  };
+  std::size_t k = 0;
+  double start = 0.0;
+  while (k + 1 < w.sections.size() && arc >= start + w.sections[k].length_mm)
+    start += w.sections[k++].length_mm;
+  const double length = w.sections[k].length_mm;
+  const double behind = std::min(arc - start, length);
+  Eigen::Vector2d rest = of_section(k, behind);
+  // Half of the jump at a border is missing there, and less of it up to 1 mm away.
+  if (k > 0 && behind < 1.0)
+    rest -= 0.5 * (1.0 - behind) * (of_section(k, 0.0) - of_section(k - 1, w.sections[k - 1].length_mm));
+  if (k + 1 < w.sections.size() && length - behind < 1.0)
+    rest += 0.5 * (1.0 - (length - behind)) * (of_section(k + 1, 0.0) - of_section(k, length));
+  return rest;
+}
+
+/// From the definition: base ± a power of something linear.
 double value(const Taper& t, double f) {
-  return t.at_tip_side + f * (t.at_hand_side - t.at_tip_side);
+  if (t.power == 1) return t.at_tip_side + f * (t.at_hand_side - t.at_tip_side);
+  const double sign = t.at_tip_side < t.base ? -1.0 : 1.0;
+  const double tip = std::pow(sign * (t.at_tip_side - t.base), 1.0 / t.power);
+  const double hand = std::pow(sign * (t.at_hand_side - t.base), 1.0 / t.power);
+  return t.base + sign * std::pow(tip + f * (hand - tip), t.power);
 }
 
-/// Midpoint rule fine enough that section borders do not show.
+/// Compliance from the definition: that of the section, and within 1 mm of a border linearly on to that of the other.
+double compliance_at(const Instrument& w, double arc,
+                     const std::function<double(const Section&, double)>& rigidity) {
+  std::size_t k = 0;
+  double start = 0.0;
+  while (k + 1 < w.sections.size() && arc >= start + w.sections[k].length_mm)
+    start += w.sections[k++].length_mm;
+  const auto of_section = [&](std::size_t section, double fraction) {
+    return 1.0 / rigidity(w.sections[section], fraction);
+  };
+  const double length = w.sections[k].length_mm;
+  const double behind = std::min(arc - start, length);
+  double compliance = of_section(k, behind / length);
+  if (k > 0 && behind < 1.0)
+    compliance -= 0.5 * (1.0 - behind) * (of_section(k, 0.0) - of_section(k - 1, 1.0));
+  if (k + 1 < w.sections.size() && length - behind < 1.0)
+    compliance += 0.5 * (1.0 - (length - behind)) * (of_section(k + 1, 0.0) - of_section(k, 1.0));
+  return compliance;
+}
+
+/// Midpoint rule between the borders of the sections.
 double quadrature(double from, double to, const std::function<double(double)>& f) {
-  constexpr int n = 400000;
+  constexpr int n = 100000;
   double sum = 0.0;
-  for (int i = 0; i < n; ++i) sum += f(from + (to - from) * (i + 0.5) / n);
-  return sum * (to - from) / n;
+  double begin = from;
+  for (const double border : {7.0, 17.0, 30.0, to}) {
+    const double end = std::min(border, to);
+    if (end <= begin) continue;
+    for (int i = 0; i < n; ++i) sum += f(begin + (end - begin) * (i + 0.5) / n) * (end - begin) / n;
+    begin = end;
+  }
+  return sum;
 }
 
-class Stretch : public testing::TestWithParam<std::pair<double, double>> {};
+using Arcs = std::pair<double, double>;
+class Stretch : public testing::TestWithParam<std::tuple<Arcs, bool>> {};
 
 // Breaks when a border is missed, counted twice, or a taper is averaged instead of its compliance.
 TEST_P(Stretch, IntegralsAgreeWithQuadrature) {
-  const auto [from, to] = GetParam();
-  const Instrument w = three_sections();
+  const auto [from, to] = std::get<0>(GetParam());
+  const Instrument w = std::get<1>(GetParam()) ? three_cores() : three_sections();
   const MaterialLine line(w);
   const auto over = [&, a = from, b = to](const std::function<double(const Section&, double)>& f) {
     return quadrature(a, b, [&](double arc) {
@@ -76,16 +149,26 @@ TEST_P(Stretch, IntegralsAgreeWithQuadrature) {
     });
   };
   const double length = to - from;
-  const auto series = [&](Taper Section::*taper) {
-    return length / over([&](const Section& s, double f) { return 1.0 / value(s.*taper, f); });
+  const auto series_of = [&, a = from,
+                          b = to](const std::function<double(const Section&, double)>& rigidity) {
+    return length / quadrature(a, b, [&](double arc) { return compliance_at(w, arc, rigidity); });
   };
-  const double tolerance = 2e-6;
+  const auto series = [&](Taper Section::*taper) {
+    return series_of([&](const Section& s, double f) { return value(s.*taper, f); });
+  };
+  const double tolerance = 1e-8;
   EXPECT_NEAR(line.flexural_rigidity_n_mm2(from, to) / series(&Section::flexural_rigidity_n_mm2), 1.0,
               tolerance);
+  const double soft = series_of(
+      [&](const Section& s, double f) { return s.flexural_ratio * value(s.flexural_rigidity_n_mm2, f); });
+  EXPECT_NEAR(line.flexural_rigidities_n_mm2(from, to)[0] / line.flexural_rigidity_n_mm2(from, to), 1.0,
+              1e-15);
+  EXPECT_NEAR(line.flexural_rigidities_n_mm2(from, to)[1] / soft, 1.0, tolerance);
   EXPECT_NEAR(line.torsional_rigidity_n_mm2(from, to) / series(&Section::torsional_rigidity_n_mm2), 1.0,
               tolerance);
   EXPECT_NEAR(line.axial_rigidity_n(from, to) / series(&Section::axial_rigidity_n), 1.0, tolerance);
-  EXPECT_NEAR(line.mass_g(from, to), over([](const Section& s, double) { return s.linear_density_g_per_mm; }),
+  EXPECT_NEAR(line.mass_g(from, to),
+              over([](const Section& s, double f) { return value(s.linear_density_g_per_mm, f); }),
               tolerance * length * 1e-3);
   EXPECT_NEAR(line.volume_mm3(from, to), over([](const Section& s, double f) {
                 const double r = value(s.radius_mm, f);
@@ -93,21 +176,19 @@ TEST_P(Stretch, IntegralsAgreeWithQuadrature) {
               }),
               tolerance * length);
   const Eigen::Vector2d bend = line.rest_bend_rad(from, to);
-  EXPECT_NEAR(bend.x(), over([](const Section& s, double) {
-                return s.rest_curvature_per_mm * std::cos(s.rest_plane_rad);
-              }),
-              tolerance * length);
-  EXPECT_NEAR(bend.y(), over([](const Section& s, double) {
-                return s.rest_curvature_per_mm * std::sin(s.rest_plane_rad);
-              }),
-              tolerance * length);
+  for (int c = 0; c < 2; ++c) {
+    EXPECT_NEAR(bend[c], quadrature(from, to, [&](double arc) { return rest_at(w, arc)[c]; }),
+                tolerance * length);
+  }
 }
 
 // Within a section, to a border, over one, over all, beyond the end, wholly beyond the end.
 INSTANTIATE_TEST_SUITE_P(All, Stretch,
-                         testing::Values(std::pair{1.0, 4.0}, std::pair{2.0, 7.0}, std::pair{7.0, 9.0},
-                                         std::pair{6.5, 7.5}, std::pair{0.0, 30.0}, std::pair{8.0, 16.0},
-                                         std::pair{28.0, 36.0}, std::pair{33.0, 40.0}));
+                         testing::Combine(testing::Values(Arcs{1.0, 4.0}, Arcs{2.0, 7.0}, Arcs{7.0, 9.0},
+                                                          Arcs{6.5, 7.5}, Arcs{0.0, 30.0}, Arcs{8.0, 16.0},
+                                                          Arcs{28.0, 36.0}, Arcs{33.0, 40.0}, Arcs{6.2, 6.9},
+                                                          Arcs{7.1, 17.3}),
+                                          testing::Bool()));
 
 // At a border the section behind it holds; behind the wire its last values. Breaks with ≤ in place of <.
 TEST(MaterialLine, PointValuesAtBordersAndBeyond) {
@@ -125,6 +206,81 @@ TEST(MaterialLine, PointValuesAtBordersAndBeyond) {
             1e-15);
 }
 
+// Breaks when a ramp moves the turn of the unloaded wire instead of spreading it.
+TEST(MaterialLine, RampsKeepTheTurnOfTheUnloadedWire) {
+  const Instrument w = three_sections();
+  const MaterialLine line(w);
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const Section& s : w.sections) {
+    sum += s.length_mm * s.rest_curvature_per_mm *
+           Eigen::Vector2d(std::cos(s.rest_plane_rad), std::sin(s.rest_plane_rad));
+  }
+  EXPECT_LT((line.rest_bend_rad(0.0, 30.0) - sum).norm(), 1e-15);
+}
+
+// Breaks when the curvature jumps at a border or at the end of a ramp, or when its slope is not that of the curvature.
+TEST(MaterialLine, RestCurvatureIsContinuousAndItsSlopeIsItsDerivative) {
+  const MaterialLine line(three_cores());
+  constexpr double kStep_mm = 1e-6;
+  double met = 0.0;
+  for (double arc = 0.0505; arc < 30.0; arc += 0.01) {
+    const Eigen::Vector2d change =
+        line.rest_curvature_per_mm(arc + kStep_mm) - line.rest_curvature_per_mm(arc);
+    const Eigen::Vector2d slope = line.rest_curvature_slope_per_mm2(arc);
+    EXPECT_LT((change - kStep_mm * slope).norm(), 1e-13) << arc;
+    met = std::max(met, slope.norm());
+  }
+  EXPECT_GT(met, 0.02 / kRamp_mm - 1e-12);
+  for (const double end : {6.0, 7.0, 8.0, 16.0, 17.0, 18.0}) {
+    EXPECT_LT((line.rest_curvature_per_mm(end + 1e-9) - line.rest_curvature_per_mm(end - 1e-9)).norm(), 1e-9);
+  }
+}
+
+// A ramp never passes the middle of a section, and behind the last curved one the wire is straight to the bit.
+TEST(MaterialLine, RampsOfShortSectionsAreShorter) {
+  Instrument w = three_sections();
+  w.sections[0].length_mm = 0.6;
+  w.sections[1].length_mm = 40.0;
+  w.sections[2].rest_curvature_per_mm = 0.0;
+  w.sections[1].rest_curvature_per_mm = 0.0;
+  const MaterialLine line(w);
+  EXPECT_NEAR(line.rest_curvature_per_mm(0.29).x(), -0.02, 1e-15);
+  EXPECT_NEAR(line.rest_curvature_per_mm(0.6).x(), -0.01, 1e-15);
+  EXPECT_NEAR(line.rest_bend_rad(0.0, 5.0).x(), -0.012, 1e-15);
+  EXPECT_NE(line.rest_bend_rad(0.89, 5.0).x(), 0.0);
+  EXPECT_EQ(line.rest_bend_rad(0.9, 70.0).norm(), 0.0);
+  EXPECT_EQ(line.rest_curvature_per_mm(0.9).norm(), 0.0);
+}
+
+// What a point says is what the integrals are of. Breaks when one of the two leaves out a ramp.
+TEST(MaterialLine, RigidityAtAPointIsThatOfAShortStretch) {
+  const MaterialLine line(three_cores());
+  constexpr double kShort_mm = 1e-4;
+  for (double arc = 0.013; arc < 29.9; arc += 0.37) {
+    const Eigen::Vector2d stretch = line.flexural_rigidities_n_mm2(arc - kShort_mm, arc + kShort_mm);
+    EXPECT_LT((line.flexural_rigidities_n_mm2(arc) - stretch).norm(), 1e-6 * stretch.norm()) << arc;
+    EXPECT_NEAR(line.flexural_rigidity_n_mm2(arc) / stretch[0], 1.0, 1e-6) << arc;
+    EXPECT_NEAR(
+        line.torsional_rigidity_n_mm2(arc) / line.torsional_rigidity_n_mm2(arc - kShort_mm, arc + kShort_mm),
+        1.0, 1e-6)
+        << arc;
+  }
+}
+
+// A section that stiffens a thousandfold within a millimetre of a stiff border: compliance stays above 0 all along.
+TEST(MaterialLine, RampsNeverMakeAComplianceNegative) {
+  Instrument w = three_sections();
+  w.sections[0].length_mm = 2.0;
+  w.sections[0].flexural_rigidity_n_mm2 = {1000.0, 1.0};
+  w.sections[1].flexural_rigidity_n_mm2 = {1000.0, 1.0};
+  w.sections[1].length_mm = 2.0;
+  const MaterialLine line(w);
+  for (double arc = 0.0; arc < 10.0; arc += 0.01) {
+    EXPECT_GT(line.flexural_rigidity_n_mm2(arc), 0.0) << arc;
+    EXPECT_GT(line.flexural_rigidity_n_mm2(arc, arc + 0.01), 0.0) << arc;
+  }
+}
+
 // Breaks when only one end of the stretch is looked at.
 TEST(MaterialLine, TheSmallestKinkCurvatureOfAStretchCounts) {
   const MaterialLine line(three_sections());
@@ -132,11 +288,13 @@ TEST(MaterialLine, TheSmallestKinkCurvatureOfAStretchCounts) {
   EXPECT_DOUBLE_EQ(line.kink_per_mm(1.0, 8.0), 0.7);
   EXPECT_DOUBLE_EQ(line.kink_per_mm(1.0, 29.0), 0.5);
   EXPECT_DOUBLE_EQ(line.kink_per_mm(31.0, 35.0), 0.5);
+  const MaterialLine cores(three_cores());  // 1/κ_m grows from 1/0.9 to 1/0.3
+  EXPECT_NEAR(cores.kink_per_mm(9.0, 12.0), 1.0 / (0.5 / 0.9 + 0.5 / 0.3), 1e-14);
 }
 
 // Rigidities of two halves are springs in series: exact, whatever the taper.
 TEST(MaterialLine, HalvesAreSpringsInSeries) {
-  const MaterialLine line(three_sections());
+  const MaterialLine line(three_cores());
   for (double from = 0.0; from < 30.0; from += 0.9) {
     const double whole = 2.0 / line.flexural_rigidity_n_mm2(from, from + 2.0);
     const double halves = 1.0 / line.flexural_rigidity_n_mm2(from, from + 1.0) +

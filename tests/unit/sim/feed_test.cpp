@@ -87,6 +87,33 @@ TEST_F(Sheathed, GradientOfEverythingTogether) {
   }
 }
 
+// A wire that is not round, and less so further on: both directions push at the hand in their own measure.
+class FlatSheathed : public Sheathed {
+ protected:
+  FlatSheathed() : Sheathed(flat_wire()) {}
+  static rod::Instrument flat_wire() {
+    rod::Instrument wire = varied_wire();
+    wire.sections[0].length_mm = 20.0;
+    wire.sections[0].flexural_ratio = 0.2;
+    wire.sections[1].flexural_ratio = 0.7;
+    wire.sections[1].kink_curvature_per_mm = 0.12;
+    wire.sections[1].flexural_rigidity_n_mm2 = {14.0, 90.0, 4, 3.0};
+    return wire;
+  }
+};
+
+TEST_F(FlatSheathed, GradientOfTheFeed) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    lay(0.25, seed);
+    math::BandMatrix hessian;
+    hessian.resize(problem_.unknowns());
+    std::vector<double> gradient(direction_.size(), 0.0);
+    const double energy = problem_.linearise(hessian, gradient);
+    test::expect_order([&](double h) { return energy_at(h) - energy - h * test::dot(gradient, direction_); },
+                       2.0, 1e-12 * energy, "seed " + std::to_string(seed), 0.02);
+  }
+}
+
 class RubbingSheathed : public Sheathed {
  protected:
   RubbingSheathed() : Sheathed(rubbing_wire()) {}
@@ -149,12 +176,39 @@ TEST_F(Sheathed, ATrialThatIsNotTakenChangesNothing) {
   EXPECT_NEAR(problem_.energy_mj(), energy, 1e-12 * energy);
 }
 
-// On a uniform wire without a kink nothing is left out of the feed's row.
 class SheathedUniform : public Sheathed {
  protected:
   SheathedUniform() : Sheathed(test::uniform_wire(8.0, 6.0, 200.0)) {}
 };
 
+class SheathedAtARamp : public Sheathed {
+ protected:
+  SheathedAtARamp() : Sheathed(wire_with_a_ramp()) {}
+  /// Where this wire leaves the sheath its rest curvature is on the way to none.
+  static rod::Instrument wire_with_a_ramp() {
+    rod::Instrument wire = test::uniform_wire(8.0, 6.0, 21.0);
+    wire.sections.push_back(wire.sections[0]);
+    wire.sections[1].length_mm = 200.0;
+    wire.sections[0].rest_curvature_per_mm = 0.08;
+    wire.sections[0].rest_plane_rad = 0.4;
+    return wire;
+  }
+};
+
+// Breaks without the slope of the rest curvature in the feed's Hessian.
+TEST_F(SheathedAtARamp, SecondDerivativeOfTheFeed) {
+  lay(0.2, 7);
+  std::fill(direction_.begin(), direction_.end(), 0.0);
+  direction_[20] = 1.0;
+  math::BandMatrix hessian;
+  hessian.resize(problem_.unknowns());
+  std::vector<double> gradient(direction_.size(), 0.0);
+  const double energy = problem_.linearise(hessian, gradient);
+  test::expect_taylor([&](double h) { return energy_at(h); }, gradient[20],
+                      test::quadratic(hessian, direction_), energy, "feed", 0.05);
+}
+
+// On a uniform wire without a kink nothing is left out of the feed's row.
 TEST_F(SheathedUniform, HessianOfTheFeed) {
   lay(0.2, 7);
   std::fill(direction_.begin(), direction_.end(), 0.0);
