@@ -6,6 +6,7 @@
 
 #include "endowire/base/error.hpp"
 #include "endowire/sim/chain_problem.hpp"
+#include "endowire/sim/clearance.hpp"
 #include "endowire/sim/measure.hpp"
 #include "endowire/sim/predictor.hpp"
 #include "endowire/sim/resolution.hpp"
@@ -25,11 +26,6 @@ std::size_t at(int i) {
 constexpr double kSnap_mm = 1.5;
 /// Local walls hold this far around the place of detection; a state beyond is detected anew.
 constexpr double kRegion_mm = 0.8;
-/// Spacing of the points at which a shape on the way is checked against the field.
-constexpr double kClearStep_mm = 0.5;
-/// A tip that moves less than this cuts no corner; nor does one whose axis stays this share of its radius off the wall on its way.
-constexpr double kShortWay_mm = 0.4;
-constexpr double kCorner = 0.5;
 /// Halvings for a corner's sake.
 constexpr int kCornerSplits = 3;
 /// Corrections below which the walls are checked, before the solution is polished.
@@ -82,8 +78,7 @@ class Simulation::Impl {
   solve::Validity check_walls();
   void redetect();
   void keep_waypoint();
-  [[nodiscard]] bool lies_clear() const;
-  [[nodiscard]] bool cuts_corner(const Command& command) const;
+  [[nodiscard]] bool tip_cuts_corner(const Command& command) const;
   void adapt_rods();
   void finish(const Command& command);
   void measure();
@@ -287,7 +282,7 @@ const StepReport& Simulation::Impl::step(const Command& command) {
 bool Simulation::Impl::advance(const Command& command, int split) {
   const int attempt = ++attempts_;
   const bool divisible = command.advance_mm != 0.0 || command.torque_rad != 0.0;
-  if (advance_once(command) && (!divisible || split >= kCornerSplits || !cuts_corner(command))) {
+  if (advance_once(command) && (!divisible || split >= kCornerSplits || !tip_cuts_corner(command))) {
     finish(command);
     return true;
   }
@@ -394,37 +389,10 @@ void Simulation::Impl::redetect() {
                         static_cast<double>(contact.samples().size());
 }
 
-/// Whether the wire lies in the lumen all along, within what the wall may yield. Asked of shapes that are no equilibria.
-bool Simulation::Impl::lies_clear() const {
-  const rod::ChainShape& shape = problem_.shape;
-  for (int i = 0; i + 1 < shape.rods(); ++i) {
-    const double length = problem_.material.length_mm[at(i)];
-    const int points = std::max(1, static_cast<int>(std::ceil(length / kClearStep_mm)));
-    for (int k = 0; k < points; ++k) {
-      const double w = static_cast<double>(k) / points;
-      const Eigen::Vector3d x = (1.0 - w) * shape.joints_mm[at(i)] + w * shape.joints_mm[at(i + 1)];
-      const double radius = line_.radius_mm(problem_.material.arc_mm[at(i)] + w * length);
-      if (field_->at(x).distance_mm < radius - spec_.wall.max_deflection_mm) return false;
-    }
-  }
-  return true;
-}
-
-/// Whether the tip, which slid along the wall, has come straight through what that stands out: a step too long to follow it. In a snap
-/// it may; its way is that of the waypoints.
-bool Simulation::Impl::cuts_corner(const Command& command) const {
-  if (in_sheath() || state_.joints_mm.empty()) return false;
-  const Eigen::Vector3d& from = state_.joints_mm[0];
-  const Eigen::Vector3d way = problem_.shape.joints_mm[0] - from;
-  const double length = way.norm();
-  if (length < kShortWay_mm || length > 2.0 * std::abs(command.advance_mm) + kShortWay_mm) return false;
-  const double least = kCorner * line_.radius_mm(0.0);
-  for (double gone = 0.0; gone < length;) {
-    const double height = field_->at(from + gone / length * way).distance_mm;
-    if (height < least) return true;
-    gone += std::max(height - least, kShortWay_mm / 8.0);
-  }
-  return false;
+bool Simulation::Impl::tip_cuts_corner(const Command& command) const {
+  return !in_sheath() && !state_.joints_mm.empty() &&
+         cuts_corner(*field_, state_.joints_mm[0], problem_.shape.joints_mm[0], line_.radius_mm(0.0),
+                     command.advance_mm);
 }
 
 /// Keeps the present shape, on its way to equilibrium, if the wire has moved since the last one kept and lies clear.
@@ -434,7 +402,7 @@ void Simulation::Impl::keep_waypoint() {
   if (last == nullptr) last = predicted_.data();
   double moved = 0.0;
   for (std::size_t j = 0; j < joints.size(); ++j) moved = std::max(moved, (joints[j] - last[j]).norm());
-  if (waypoints_.far_enough(moved) && lies_clear())
+  if (waypoints_.far_enough(moved) && lies_clear(wire(), *field_, spec_.wall.max_deflection_mm))
     waypoints_.keep(joints, problem_.material.arc_mm, attempts_);
 }
 
