@@ -8,6 +8,7 @@
 #include "endowire/io/centreline_file.hpp"
 #include "endowire/io/contact_sheet.hpp"
 #include "endowire/io/file.hpp"
+#include "endowire/io/slicer_markup.hpp"
 #include "endowire/io/summary.hpp"
 #include "progress.hpp"
 #include "vessel_input.hpp"
@@ -67,6 +68,15 @@ void print_branches(const vessel::CentrelineTree& tree) {
   }
 }
 
+/// As the name asks for: markups of 3D Slicer, else VTP.
+void write_centrelines(const std::string& file, const vessel::CentrelineTree& tree) {
+  if (file.ends_with(".json")) {
+    io::write_file_atomically(file, io::slicer_markups(tree).dump(1) + "\n");
+  } else {
+    io::write_centrelines_vtp(file, tree);
+  }
+}
+
 int run(const Options& options) {
   const io::VesselMesh mesh = read_vessel(options.vessel);
   Progress progress(options.json);
@@ -76,7 +86,7 @@ int run(const Options& options) {
   const std::shared_ptr<const vessel::CentrelineTree> tree = io::prepare_centrelines(mesh, options.cache);
   progress.clear();
   const std::vector<vessel::VesselEnd> ends = vessel::vessel_ends(mesh.repaired, *tree);
-  if (!options.centreline.empty()) io::write_centrelines_vtp(options.centreline, *tree);
+  if (!options.centreline.empty()) write_centrelines(options.centreline, *tree);
   if (!options.picture.empty())
     io::write_file_atomically(options.picture, io::contact_sheet_png(mesh.repaired.mesh, *tree, ends));
   if (options.json) {
@@ -101,7 +111,8 @@ std::function<int()> add_inspect(CLI::App& app) {
       "inspect", "what a vessel is: unit, triangles, repairs, ends, lumen diameters, branches");
   add_vessel_options(*command, options->vessel);
   command->add_option("--cache", options->cache, "folder for prepared distance fields and centrelines");
-  command->add_option("--centreline", options->centreline, "write the centrelines to this file (VTP)");
+  command->add_option("--centreline", options->centreline,
+                      "write the centrelines to this file: .vtp, or .mrk.json for 3D Slicer");
   command->add_option(
       "--picture", options->picture,
       "draw the vessel from three sides, ends numbered, centrelines by radius, into this file (PNG)");

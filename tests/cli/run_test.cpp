@@ -150,6 +150,10 @@ TEST(Inspect, WritesCentrelines) {
   test::write_text(folder / "v.stl", test::tube_stl(4.0, 60.0));
   const Outcome outcome =
       run_endowire(folder, {"inspect", "v.stl", "--centreline", "c.vtp", "--cache", test::test_cache()});
+  const Outcome slicer =
+      run_endowire(folder, {"inspect", "v.stl", "--centreline", "c.mrk.json", "--cache", test::test_cache()});
+  EXPECT_EQ(slicer.code, 0) << slicer.err;
+  EXPECT_EQ(json::parse(test::read_text(folder / "c.mrk.json"))["markups"].size(), 1U);
 #ifdef ENDOWIRE_JUDGE
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_NE(test::read_text(folder / "c.vtp").find("curvature_per_mm"), std::string::npos);

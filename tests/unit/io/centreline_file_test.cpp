@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "endowire/base/error.hpp"
+#include "endowire/io/slicer_markup.hpp"
 #include "endowire/io/vtp.hpp"
 #include "support/generated_meshes.hpp"
 #include "support/temporary_folder.hpp"
@@ -67,6 +68,27 @@ TEST(CentrelineFile, JsonListsBranchesAndEnds) {
   ASSERT_EQ(json.at("ends").size(), 2U);
   EXPECT_EQ(json.at("ends").at(0).at("root"), true);
   EXPECT_EQ(json.at("ends").at(0).at("kind").get<std::string>().rfind("opening ", 0), 0U);
+}
+
+TEST(SlicerMarkups, HoldACurveABranchWithItsRadii) {
+  const auto tree = prepare_centrelines(tube(), {});
+  const nlohmann::ordered_json json = slicer_markups(*tree);
+  ASSERT_EQ(json.at("markups").size(), tree->branches().size());
+  const auto& curve = json.at("markups").at(0);
+  EXPECT_EQ(curve.at("type"), "Curve");
+  EXPECT_EQ(curve.at("coordinateSystem"), "LPS");
+  EXPECT_EQ(curve.at("name"), tree->branches()[0].name);
+  const auto& radius = curve.at("measurements").at(0);
+  EXPECT_EQ(radius.at("name"), "Radius");
+  const auto points = tree->points_of(0);
+  ASSERT_EQ(curve.at("controlPoints").size(), points.size());
+  ASSERT_EQ(radius.at("controlPointValues").size(), points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(curve["controlPoints"][i]["position"][k].get<double>(),
+                points[i].position_mm[static_cast<int>(k)]);
+    EXPECT_EQ(radius["controlPointValues"][i].get<double>(), points[i].radius_mm);
+  }
 }
 
 }  // namespace
