@@ -1,5 +1,5 @@
 # The commands of the project. Each installs the system packages it needs (tools/deps.sh), configures and builds.
-.PHONY: help deps run demo test test-long validation bench format lint clean
+.PHONY: help deps run demo test test-long validation bench paper format lint clean
 JOBS ?= $(shell nproc)
 
 help:
@@ -8,6 +8,7 @@ help:
 	@echo "make test-long  sweeps that take longer"
 	@echo "make validation docs/validation.md and its pictures, from the code that the tests assert"
 	@echo "make bench      speed"
+	@echo "make paper      tries the claims of the paper: docs/paper.md, ten minutes"
 	@echo "make format     clang-format over all sources"
 	@echo "make lint       clang-tidy over the library"
 	@echo "make deps       install the system packages of all of these"
@@ -47,6 +48,12 @@ bench:
 	cmake --preset bench
 	cmake --build --preset bench --parallel $(JOBS)
 	@for binary in $$(find build/bench/bench -maxdepth 1 -type f -perm -u+x -name 'bench_*'); do $$binary || exit 1; done
+
+paper:
+	@tools/deps.sh bench
+	cmake --preset bench
+	cmake --build --preset bench --parallel $(JOBS) --target write_paper
+	build/bench/bench/paper/write_paper docs
 
 format:
 	@cmake -DFIX=ON -P tests/ground/format.cmake

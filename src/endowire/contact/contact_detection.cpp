@@ -143,6 +143,13 @@ int ContactSet::redetect(const Wire& wire, const vessel::Field& field, const Con
   return detected;
 }
 
+void ContactSet::detect_again(const Wire& wire, const vessel::Field& field, const ContactSpec& spec) {
+  for (Sample& s : samples_) {
+    s.last_way_mm.setZero();  // no bisection: the walls are wanted where the sample is
+    detect_sample(wire.shape, field, spec, s);
+  }
+}
+
 int ContactSet::add_over_ridges(const Wire& wire, const vessel::Field& field, bool rough_field) {
   const rod::ChainShape& shape = wire.shape;
   const double least_dip_mm = rough_field ? std::max(kRidgeDip_mm, field.error_mm()) : kRidgeDip_mm;

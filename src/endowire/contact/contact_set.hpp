@@ -50,6 +50,8 @@ class ContactSet {
   /// Detection for the samples that the last verification found wrong, and no others: those keep the walls they have.
   /// @return  number of samples detected
   int redetect(const Wire& wire, const vessel::Field& field, const ContactSpec& spec);
+  /// Detection for all samples, each from the place of its last one.
+  void detect_again(const Wire& wire, const vessel::Field& field, const ContactSpec& spec);
 
   /// Adds samples where the wall reaches between two others: over a ridge, such as a carina or the edge of a facet, a
   /// straight rod dips deeper into the wall than samples on both sides of it see. They are not detected yet but marked wrong.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,13 @@ struct Access {
 
 using contact::WallSpec;
 
+/// How often a step looks for walls. Procedures are played with `as_needed`; the others are what it is compared with (docs/paper.md).
+enum class Detection : std::uint8_t {
+  as_needed,        ///< once for the whole wire; then for samples whose walls prove wrong, one by one
+  once,             ///< once for the whole wire; what it found is never held against the field
+  every_iteration,  ///< for the whole wire, at the start and after every Newton iteration
+};
+
 /// Numerical parameters; none of them shapes the result (tests change each tenfold).
 struct SolverSpec {
   ResolutionSpec rods;
@@ -28,6 +36,7 @@ struct SolverSpec {
   double grip_stiffness_n_per_mm = 1000.0;
   int max_iterations = 60;  ///< Newton iterations before a step is split
   int max_splits = 6;       ///< halvings of one step before it is reported as not converged
+  Detection detection = Detection::as_needed;
 };
 
 struct SimulationSpec {

@@ -77,6 +77,7 @@ class Simulation::Impl {
   bool settle();
   solve::Validity check_walls();
   void redetect();
+  void detect_again();
   void keep_waypoint();
   [[nodiscard]] bool tip_cuts_corner(const Command& command) const;
   void adapt_rods();
@@ -144,7 +145,10 @@ Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrume
   newton_spec_.max_step_mm = kMaxStep_mm;
   newton_spec_.check_correction_mm = kCheck_mm;
   problem_.checker = [this] { return check_walls(); };
-  problem_.on_step = [this] { keep_waypoint(); };
+  problem_.on_step = [this] {
+    keep_waypoint();
+    if (spec_.solver.detection == Detection::every_iteration) detect_again();
+  };
 
   const double gravity_m_per_s2 = spec_.gravity_m_per_s2.norm();
   const rod::ImmersedWire immersed{&line_, gravity_m_per_s2, spec_.blood_density_g_per_mm3};
@@ -362,6 +366,7 @@ bool Simulation::Impl::settle() {
 
 /// Whether the local walls agree with the field; samples that they fail are detected anew, the others are not.
 solve::Validity Simulation::Impl::check_walls() {
+  if (spec_.solver.detection != Detection::as_needed) return solve::Validity::holds;
   contact::ContactSet& contact = problem_.contact;
   ++report_.verifications;
   const bool rough = rounds_ >= kUnevenFrom;
@@ -387,6 +392,12 @@ void Simulation::Impl::redetect() {
   contact::ContactSet& contact = problem_.contact;
   report_.detections += static_cast<double>(contact.redetect(wire(), *field_, contact_spec_)) /
                         static_cast<double>(contact.samples().size());
+}
+
+/// Detection of the whole wire on its way to equilibrium.
+void Simulation::Impl::detect_again() {
+  problem_.contact.detect_again(wire(), *field_, contact_spec_);
+  report_.detections += 1.0;
 }
 
 bool Simulation::Impl::tip_cuts_corner(const Command& command) const {
