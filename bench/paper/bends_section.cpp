@@ -6,14 +6,19 @@
 #include <cmath>
 #include <numbers>
 
-#include "chart.hpp"
 #include "difference.hpp"
 #include "endowire/io/statistics.hpp"
 #include "kinds.hpp"
+#include "support/chart.hpp"
 #include "table.hpp"
 #include "verdict.hpp"
 
 namespace endowire::paper {
+
+using drawing::Chart;
+using drawing::Mark;
+using drawing::Series;
+using drawing::svg;
 
 namespace {
 

@@ -5,12 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "chart.hpp"
 #include "endowire/io/statistics.hpp"
+#include "support/chart.hpp"
 #include "table.hpp"
 #include "verdict.hpp"
 
 namespace endowire::paper {
+
+using drawing::Chart;
+using drawing::Mark;
+using drawing::Series;
+using drawing::svg;
 
 namespace {
 

@@ -5,13 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "chart.hpp"
 #include "coil.hpp"
 #include "kinds.hpp"
+#include "support/chart.hpp"
 #include "table.hpp"
 #include "verdict.hpp"
 
 namespace endowire::paper {
+
+using drawing::Chart;
+using drawing::Mark;
+using drawing::Series;
+using drawing::svg;
 
 namespace {
 

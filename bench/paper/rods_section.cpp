@@ -5,11 +5,16 @@
 #include <array>
 #include <cmath>
 
-#include "chart.hpp"
+#include "support/chart.hpp"
 #include "table.hpp"
 #include "verdict.hpp"
 
 namespace endowire::paper {
+
+using drawing::Chart;
+using drawing::Mark;
+using drawing::Series;
+using drawing::svg;
 
 namespace {
 

@@ -5,11 +5,16 @@
 #include <algorithm>
 #include <numbers>
 
-#include "chart.hpp"
+#include "support/chart.hpp"
 #include "table.hpp"
 #include "verdict.hpp"
 
 namespace endowire::paper {
+
+using drawing::Chart;
+using drawing::Mark;
+using drawing::Series;
+using drawing::svg;
 
 namespace {
 

@@ -28,8 +28,7 @@ struct Figure {
   bool log_y = false;
 };
 
-/// The picture as SVG. Coordinates have one decimal, so that equal values give equal files.
-/// @throws std::invalid_argument  for a figure without points or with numbers that are not finite
+/// The picture as SVG: a chart of `support/chart.hpp`, and its errors.
 [[nodiscard]] std::string svg(const Figure& figure);
 
 }  // namespace endowire::test

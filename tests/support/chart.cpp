@@ -1,14 +1,15 @@
-#include "chart.hpp"
+#include "support/chart.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string_view>
 
 #include "endowire/io/markup.hpp"
 
-namespace endowire::paper {
+namespace endowire::drawing {
 
 namespace {
 
@@ -18,6 +19,7 @@ constexpr double kLeft = 62.0;
 constexpr double kTop = 34.0;
 constexpr double kBottom = 46.0;
 constexpr double kRight = 16.0;
+constexpr double kRightOfLabels = 100.0;
 constexpr double kLegendRow = 16.0;
 /// Told apart by people who do not see red or green [Okabe & Ito 2008].
 constexpr std::array<std::string_view, 7> kPalette{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
@@ -45,10 +47,12 @@ Scale scale_of(const Chart& chart, std::size_t coordinate) {
     for (const auto& point : series.points) {
       if (!scale.shows(point[coordinate])) continue;
       const double v = scale.logarithmic ? std::log10(point[coordinate]) : point[coordinate];
+      if (!std::isfinite(v)) throw std::invalid_argument(chart.title + ": a value is not finite");
       scale.low = std::min(scale.low, v);
       scale.high = std::max(scale.high, v);
     }
   }
+  if (!(scale.high >= scale.low)) throw std::invalid_argument(chart.title + ": nothing to draw");
   const double margin = std::max(0.06 * (scale.high - scale.low), 1e-9);
   scale.low -= margin;
   scale.high += margin;
@@ -121,7 +125,9 @@ std::string axes(const Chart& chart, const Scale& x, const Scale& y) {
     out += fmt::format("<path d='M{0:.1f} {1:.1f}V{2:.1f}' stroke='#e4e4e4'/>\n", x.at(tick), y.from, y.to);
     out += text_at(x.at(tick), y.from + 15.0, "middle", "", fmt::format("{:g}", tick));
   }
+  std::size_t longest = 0;
   for (const double tick : ticks_of(y)) {
+    longest = std::max(longest, fmt::format("{:g}", tick).size());
     out += fmt::format("<path d='M{0:.1f} {1:.1f}H{2:.1f}' stroke='#e4e4e4'/>\n", x.from, y.at(tick), x.to);
     out += text_at(x.from - 6.0, y.at(tick) + 4.0, "end", "", fmt::format("{:g}", tick));
   }
@@ -131,8 +137,9 @@ std::string axes(const Chart& chart, const Scale& x, const Scale& y) {
   const double middle = 0.5 * (y.from + y.to);
   out += text_at(0.5 * (x.from + x.to), y.to - 12.0, "middle", " font-weight='bold'", chart.title);
   out += text_at(0.5 * (x.from + x.to), y.from + 33.0, "middle", "", chart.x.label);
-  out += text_at(x.from - 46.0, middle, "middle",
-                 fmt::format(" transform='rotate(-90 {:.1f} {:.1f})'", x.from - 46.0, middle), chart.y.label);
+  const double beside = x.from - (longest > 5 ? 52.0 : 46.0);
+  out += text_at(beside, middle, "middle",
+                 fmt::format(" transform='rotate(-90 {:.1f} {:.1f})'", beside, middle), chart.y.label);
   return out;
 }
 
@@ -145,8 +152,15 @@ std::string drawn(const Series& series, const Scale& x, const Scale& y) {
     path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x.at(point[0]), y.at(point[1]));
     marks += mark_at(series.mark, x.at(point[0]), y.at(point[1]), colour);
   }
+  if (!series.label.empty() && !series.points.empty()) {
+    const auto& last = series.points.back();
+    marks += text_at(x.at(last[0]) + 7.0, y.at(last[1]) + 4.0, "start", fmt::format(" fill='{}'", colour),
+                     series.label);
+  }
   if (!series.line || path.empty()) return marks;
-  return fmt::format("<path d='{}' fill='none' stroke='{}' stroke-width='1.6'/>\n", path, colour) + marks;
+  return fmt::format("<path d='{}' fill='none' stroke='{}' {}/>\n", path, colour,
+                     series.broken ? "stroke-dasharray='5 4'" : "stroke-width='1.6'") +
+         marks;
 }
 
 std::string legend(const Chart& chart, double left, double top) {
@@ -167,14 +181,17 @@ std::string legend(const Chart& chart, double left, double top) {
 
 std::string svg(const std::vector<Chart>& charts) {
   std::size_t names = 0;
+  double right = kRight;
   for (const Chart& chart : charts) {
+    for (const Series& series : chart.series)
+      if (!series.label.empty()) right = kRightOfLabels;
     names = std::max(names, static_cast<std::size_t>(
                                 std::count_if(chart.series.begin(), chart.series.end(),
                                               [](const Series& series) { return !series.name.empty(); })));
   }
   const std::size_t columns = charts.size() > 3 ? 2 : charts.size();
   const std::size_t lines = (charts.size() + columns - 1) / columns;
-  const double panel_width = kLeft + kPlotWidth + kRight;
+  const double panel_width = kLeft + kPlotWidth + right;
   const double panel_height = kTop + kPlotHeight + kBottom + kLegendRow * static_cast<double>(names);
   const double width = panel_width * static_cast<double>(columns);
   const double height = panel_height * static_cast<double>(lines);
@@ -201,4 +218,4 @@ std::string svg(const std::vector<Chart>& charts) {
   return out + "</svg>\n";
 }
 
-}  // namespace endowire::paper
+}  // namespace endowire::drawing

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace endowire::paper {
+namespace endowire::drawing {
 
 enum class Mark { none, dot, ring, cross };
 
@@ -14,7 +14,9 @@ struct Series {
   std::vector<std::array<double, 2>> points;
   bool line = true;
   Mark mark = Mark::dot;
-  int colour = 0;  ///< of the palette; -1: grey
+  int colour = 0;       ///< of the palette; -1: grey
+  bool broken = false;  ///< a thin, broken line: a guide
+  std::string label{};  ///< written at its last point; may be empty
 };
 
 struct Axis {
@@ -30,7 +32,9 @@ struct Chart {
   bool true_to_scale = false;  ///< a millimetre is as long on both axes
 };
 
-/// One SVG with charts side by side, in rows of two when there are more than three.
+/// One SVG with charts side by side, in rows of two when there are more than three. Coordinates have one decimal, so that equal values give
+/// equal files.
+/// @throws std::invalid_argument  for a chart without points, or with numbers that are not finite
 [[nodiscard]] std::string svg(const std::vector<Chart>& charts);
 
-}  // namespace endowire::paper
+}  // namespace endowire::drawing
