@@ -102,6 +102,7 @@ bool rests_on_kink(const LocalWall& wall, const Eigen::Vector3d& displacement_mm
   if (!wall.corrected || (displacement_mm - wall.corrected_at_mm).norm() > accuracy_mm) return false;
   const Eigen::Vector3d there = local_height_derivatives(wall, wall.corrected_at_mm).gradient;
   const Eigen::Vector3d jump = gradient - there;
+  if (jump.isZero()) return false;
   const Eigen::Vector3d turned = local_height_derivatives(wall, displacement_mm).gradient - there;
   const double share = std::clamp(turned.dot(jump) / jump.squaredNorm(), 0.0, 1.0);
   return (turned - share * jump).norm() <= slope_accuracy;

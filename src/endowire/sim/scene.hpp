@@ -25,7 +25,7 @@ enum class Detection : std::uint8_t {
   every_iteration,  ///< for the whole wire, at the start and after every Newton iteration
 };
 
-/// Numerical parameters; none of them shapes the result (tests change each tenfold).
+/// Numerical parameters; none of the numbers shapes the result (tests change each tenfold). What `detection` leaves out does.
 struct SolverSpec {
   ResolutionSpec rods;
   double correction_tolerance_mm = 1e-3;
@@ -36,7 +36,7 @@ struct SolverSpec {
   double grip_stiffness_n_per_mm = 1000.0;
   int max_iterations = 60;  ///< Newton iterations before a step is split
   int max_splits = 6;       ///< halvings of one step before it is reported as not converged
-  Detection detection = Detection::as_needed;
+  Detection detection = Detection::as_needed;  ///< anything else may let the wire pass a wall
 };
 
 struct SimulationSpec {
