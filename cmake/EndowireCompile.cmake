@@ -9,7 +9,7 @@ target_compile_features(endowire_compile INTERFACE cxx_std_20)
 # No fused multiply-add behind our back and no -ffast-math: the same input gives the same bits
 # whatever the optimisation level, on every machine of one instruction set.
 target_compile_options(endowire_compile INTERFACE
-  -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
+  -ffp-contract=off -Wno-psabi -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
   $<$<BOOL:${ENDOWIRE_WERROR}>:-Werror>)
 if(ENDOWIRE_SANITIZE)
   target_compile_options(endowire_compile INTERFACE

@@ -9,6 +9,7 @@
 #include "crossings.hpp"
 #include "endowire/io/report.hpp"
 #include "endowire/io/summary.hpp"
+#include "endowire/math/processor.hpp"
 
 namespace endowire::cli {
 
@@ -17,12 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const char* instruction_set() {
-#if defined(__AVX512F__)
-  return "x86-64 with AVX-512";
-#elif defined(__AVX2__)
-  return "x86-64 with AVX2";
-#elif defined(__x86_64__)
-  return "x86-64";
+#if defined(__x86_64__)
+  return math::runs_avx2() ? "x86-64 with AVX2" : "x86-64";
 #elif defined(__aarch64__)
   return "arm64";
 #else

@@ -31,11 +31,17 @@ inline std::string quoted(const std::string& text) {
 }
 
 /// Runs the built program as a user would; its working folder is the test's.
-inline Outcome run_endowire(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
+/// @param environment  e.g. "NAME=value"
+inline Outcome run_endowire(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+                            const std::string& environment = "") {
   const std::filesystem::path out = folder / ".stdout";
   const std::filesystem::path err = folder / ".stderr";
   std::string command = "cd ";
-  command.append(quoted(folder.path().string())).append(" && ").append(quoted(ENDOWIRE_PROGRAM));
+  command.append(quoted(folder.path().string()))
+      .append(" && ")
+      .append(environment)
+      .append(" ")
+      .append(quoted(ENDOWIRE_PROGRAM));
   for (const std::string& argument : arguments) command.append(" ").append(quoted(argument));
   command.append(" > ").append(quoted(out.string())).append(" 2> ").append(quoted(err.string()));
   const int status = std::system(command.c_str());

@@ -102,7 +102,7 @@ inline double dot(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 /// vᵀHv
-inline double quadratic(const math::BandMatrix& hessian, const std::vector<double>& v) {
+inline double quadratic(math::BandMatrix& hessian, const std::vector<double>& v) {
   std::vector<double> hv(v.size());
   hessian.multiply(v, hv);
   return dot(v, hv);

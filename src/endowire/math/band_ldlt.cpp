@@ -2,98 +2,228 @@
 
 #include <cmath>
 
+#include "endowire/math/four.hpp"
+#include "endowire/math/processor.hpp"
+
 namespace endowire::math {
 
 namespace {
-constexpr int kWidth = BandMatrix::kHalfBandwidth;
+
 /// A pivot this small relative to its diagonal entry carries no correct digit.
 constexpr double kRelativePivot = 1e-14;
-}  // namespace
 
-void BandMatrix::fix(int index) {
-  for (int column = std::max(0, index - kWidth); column < index; ++column) lower(index, column) = 0.0;
-  for (int row = index + 1; row <= std::min(size_ - 1, index + kWidth); ++row) lower(row, index) = 0.0;
-  lower(index, index) = 1.0;
-}
+constexpr int kBlock = BandMatrix::kBlock;
+using Column = BandMatrix::Column;
 
-int BandMatrix::factorise(double shift) {
-  for (int c = 0; c < size_; ++c) {
-    double& diagonal = columns_[static_cast<std::size_t>(c)][0];
-    pivots_[static_cast<std::size_t>(c)] = std::abs(diagonal) + shift;
-    diagonal += shift;
-  }
+/// Factorises blocks of columns in place: below the diagonal block L D, so that of the two factors of a product one is at hand as
+/// it is; in the diagonal block the inverse of its unit lower part, without the diagonal.
+/// @param size  unknowns; further ones complete the last block and are not counted
+template <typename Four>
+[[gnu::always_inline]] inline int factorise_blocks(Column* own, double* inverse, int size, double shift) {
   int not_positive = 0;
-  // Right-looking: each column, once final, is subtracted from the ten that follow. Entries beyond the matrix are zero.
-  for (int c = 0; c < size_; ++c) {
-    const auto uc = static_cast<std::size_t>(c);
-    Column& column = columns_[uc];
-    // What the columns before took off the diagonal; a pivot lost in its rounding is no pivot.
-    const double scale = pivots_[uc];
-    double pivot = column[0];
-    if (!(pivot > kRelativePivot * scale)) {
-      ++not_positive;
-      if (!(std::abs(pivot) > kRelativePivot * scale)) pivot = -kRelativePivot * (scale + 1e-300);
+  // Left-looking: a block takes what the two before it subtract, and is then factorised itself.
+  for (int first = 0; first < size; first += kBlock, own += kBlock, inverse += kBlock) {
+    Four a[4][3];
+    double scale[4];
+    for (int q = 0; q < 4; ++q) {
+      scale[q] = std::abs(own[q][static_cast<std::size_t>(q)]) + shift;
+      for (int b = 0; b < 3; ++b) a[q][b] = load<Four>(own[q].data() + 4 * b);
     }
-    const double inverse = 1.0 / pivot;
-    pivots_[uc] = inverse;
-    for (std::size_t i = 1; i <= kWidth; ++i) {
-      Column& next = columns_[uc + i];
-      const double l = column[i] * inverse;
-      for (std::size_t k = i; k <= kWidth; ++k) next[k - i] -= l * column[k];
+    if (first >= 2 * kBlock) {
+      for (int k = -8; k < -4; ++k) {
+        const Four w = load<Four>(own[k].data() + 8);
+        double l[4];
+        store(inverse[k] * w, l);
+        for (int q = 0; q < 4; ++q) a[q][0] -= l[q] * w;
+      }
     }
-    for (std::size_t i = 1; i <= kWidth; ++i) column[i] *= inverse;
+    if (first >= kBlock) {
+      for (int k = -4; k < 0; ++k) {
+        const Four w = load<Four>(own[k].data() + 4);
+        const Four below = load<Four>(own[k].data() + 8);
+        double l[4];
+        store(inverse[k] * w, l);
+        for (int q = 0; q < 4; ++q) {
+          a[q][0] -= l[q] * w;
+          a[q][1] -= l[q] * below;
+        }
+      }
+    }
+    double d[4][4];  // d[q][p], p >= q: the diagonal block by columns
+    for (int q = 0; q < 4; ++q) {
+      store(a[q][0], d[q]);
+      d[q][q] += shift;
+    }
+    double l[4][4];  // l[p][q], p > q
+    for (int q = 0; q < 4; ++q) {
+      // What the columns before took off the diagonal; a pivot lost in its rounding is no pivot.
+      double pivot = d[q][q];
+      if (!(pivot > kRelativePivot * scale[q])) {
+        not_positive += first + q < size ? 1 : 0;
+        if (!(std::abs(pivot) > kRelativePivot * scale[q])) pivot = -kRelativePivot * (scale[q] + 1e-300);
+      }
+      inverse[q] = 1.0 / pivot;
+      for (int p = q + 1; p < 4; ++p) {
+        l[p][q] = inverse[q] * d[q][p];
+        for (int r = p; r < 4; ++r) d[p][r] -= l[p][q] * d[q][r];
+        for (int b = 1; b < 3; ++b) a[p][b] -= l[p][q] * a[q][b];
+      }
+    }
+    const double m20 = l[2][1] * l[1][0] - l[2][0];
+    const double m31 = l[3][2] * l[2][1] - l[3][1];
+    const double m30 = l[3][2] * l[2][0] + l[3][1] * l[1][0] - l[3][0] - l[3][2] * l[2][1] * l[1][0];
+    const double m[4][4] = {
+        {0.0, -l[1][0], m20, m30}, {0.0, 0.0, -l[2][1], m31}, {0.0, 0.0, 0.0, -l[3][2]}, {}};
+    for (std::size_t q = 0; q < 4; ++q)
+      for (std::size_t r = 0; r < 4; ++r) own[q][r] = m[q][r];
+    for (int q = 0; q < 4; ++q) {
+      store(a[q][1], own[q].data() + 4);
+      store(a[q][2], own[q].data() + 8);
+    }
   }
   return not_positive;
 }
 
-void BandMatrix::solve(std::vector<double>& x) const {
-  // Lengths known to the compiler but for the last ten rows: these loops are a third of a Newton iteration.
-  const int whole = std::max(0, size_ - kWidth);
-  for (int c = 0; c < size_; ++c) {
-    const Column& l = columns_[static_cast<std::size_t>(c)];
-    double* at = x.data() + c;
-    if (c < whole) {
-      for (std::size_t i = 1; i <= kWidth; ++i) at[i] -= l[i] * at[0];
-    } else {
-      for (int i = 1; i < size_ - c; ++i) at[i] -= l[static_cast<std::size_t>(i)] * at[0];
+/// x of whole blocks, with two blocks of padding.
+template <typename Four>
+[[gnu::always_inline]] inline void solve_blocks(const Column* own, const double* inverse, int blocks,
+                                                double* x) {
+  for (int block = 0; block < blocks; ++block, own += kBlock, inverse += kBlock, x += kBlock) {
+    Four x0 = load<Four>(x);
+    const Four b = x0;
+    for (int q = 0; q < 3; ++q) x0 += b[q] * load<Four>(own[q].data());
+    x0 = x0 * load<Four>(inverse);
+    store(x0, x);
+    Four x1 = load<Four>(x + 4);
+    Four x2 = load<Four>(x + 8);
+    for (int q = 0; q < 4; ++q) {
+      x1 -= x0[q] * load<Four>(own[q].data() + 4);
+      x2 -= x0[q] * load<Four>(own[q].data() + 8);
     }
+    store(x1, x + 4);
+    store(x2, x + 8);
   }
-  for (int c = size_ - 1; c >= 0; --c) {
-    const Column& l = columns_[static_cast<std::size_t>(c)];
-    double* at = x.data() + c;
-    double even = at[0] * pivots_[static_cast<std::size_t>(c)];
-    double odd = 0.0;
-    if (c < whole) {
-      for (std::size_t i = 1; i <= kWidth; i += 2) {
-        even -= l[i] * at[i];
-        odd -= l[i + 1] * at[i + 1];
-      }
-    } else {
-      for (int i = 1; i < size_ - c; ++i) even -= l[static_cast<std::size_t>(i)] * at[i];
-    }
-    at[0] = even + odd;
+  for (int block = 0; block < blocks; ++block) {
+    own -= kBlock, inverse -= kBlock, x -= kBlock;
+    const Four x1 = load<Four>(x + 4);
+    const Four x2 = load<Four>(x + 8);
+    Four product[4];
+    for (int q = 0; q < 4; ++q)
+      product[q] = x1 * load<Four>(own[q].data() + 4) + x2 * load<Four>(own[q].data() + 8);
+    const Four v = load<Four>(x) - load<Four>(inverse) * sums(product[0], product[1], product[2], product[3]);
+    for (int q = 0; q < 4; ++q) product[q] = v * load<Four>(own[q].data());
+    store(v + sums(product[0], product[1], product[2], product[3]), x);
   }
 }
 
-void BandMatrix::multiply(const std::vector<double>& x, std::vector<double>& y) const {
-  std::fill(y.begin(), y.end(), 0.0);
-  const int whole = std::max(0, size_ - kWidth);
-  for (int c = 0; c < size_; ++c) {
-    const Column& a = columns_[static_cast<std::size_t>(c)];
-    const double* from = x.data() + c;
-    double* to = y.data() + c;
-    double sum = a[0] * from[0];
-    const auto pair = [&](std::size_t i) {
-      to[i] += a[i] * from[0];
-      sum += a[i] * from[i];
-    };
-    if (c < whole) {
-      for (std::size_t i = 1; i <= kWidth; ++i) pair(i);
-    } else {
-      for (int i = 1; i < size_ - c; ++i) pair(static_cast<std::size_t>(i));
+/// y += A x of whole blocks, with two blocks of padding.
+template <typename Four>
+[[gnu::always_inline]] inline void multiply_blocks(const Column* own, int blocks, const double* x,
+                                                   double* y) {
+  for (int block = 0; block < blocks; ++block, own += kBlock, x += kBlock, y += kBlock) {
+    const Four x0 = load<Four>(x);
+    const Four x1 = load<Four>(x + 4);
+    const Four x2 = load<Four>(x + 8);
+    Four y0 = load<Four>(y);
+    Four y1 = load<Four>(y + 4);
+    Four y2 = load<Four>(y + 8);
+    Four across[4];
+    for (int q = 0; q < 4; ++q) {
+      const Four a0 = load<Four>(own[q].data());
+      const Four a1 = load<Four>(own[q].data() + 4);
+      const Four a2 = load<Four>(own[q].data() + 8);
+      y0 += x0[q] * a0;
+      y1 += x0[q] * a1;
+      y2 += x0[q] * a2;
+      across[q] = x1 * a1 + x2 * a2;
     }
-    to[0] += sum;
+    // The upper half of the diagonal block: column by column what lies below its diagonal, turned over.
+    const double upper[4] = {own[0][1] * x[1] + own[0][2] * x[2] + own[0][3] * x[3],
+                             own[1][2] * x[2] + own[1][3] * x[3], own[2][3] * x[3], 0.0};
+    store(y0 + load<Four>(upper) + sums(across[0], across[1], across[2], across[3]), y);
+    store(y1, y + 4);
+    store(y2, y + 8);
   }
+}
+
+int factorise_pairs(Column* columns, double* inverse, int size, double shift) {
+  return factorise_blocks<Pairs>(columns, inverse, size, shift);
+}
+void solve_pairs(const Column* columns, const double* inverse, int blocks, double* x) {
+  solve_blocks<Pairs>(columns, inverse, blocks, x);
+}
+void multiply_pairs(const Column* columns, int blocks, const double* x, double* y) {
+  multiply_blocks<Pairs>(columns, blocks, x, y);
+}
+
+#if ENDOWIRE_WIDE_KERNELS
+[[gnu::target("avx2")]] int factorise_quads(Column* columns, double* inverse, int size, double shift) {
+  return factorise_blocks<Quad>(columns, inverse, size, shift);
+}
+[[gnu::target("avx2")]] void solve_quads(const Column* columns, const double* inverse, int blocks,
+                                         double* x) {
+  solve_blocks<Quad>(columns, inverse, blocks, x);
+}
+[[gnu::target("avx2")]] void multiply_quads(const Column* columns, int blocks, const double* x, double* y) {
+  multiply_blocks<Quad>(columns, blocks, x, y);
+}
+#endif
+
+struct Kernels {
+  int (*factorise)(Column*, double*, int, double);
+  void (*solve)(const Column*, const double*, int, double*);
+  void (*multiply)(const Column*, int, const double*, double*);
+};
+
+const Kernels& kernels() {
+#if ENDOWIRE_WIDE_KERNELS
+  static const Kernels chosen = runs_avx2() ? Kernels{factorise_quads, solve_quads, multiply_quads}
+                                            : Kernels{factorise_pairs, solve_pairs, multiply_pairs};
+#else
+  static const Kernels chosen{factorise_pairs, solve_pairs, multiply_pairs};
+#endif
+  return chosen;
+}
+
+}  // namespace
+
+void BandMatrix::resize(int size) {
+  size_ = size;
+  const auto padded = static_cast<std::size_t>(kBlock * (blocks() + kBlocks - 1));
+  columns_.resize(padded);
+  inverse_pivots_.resize(padded);
+  for (auto* v : {&in_, &out_}) v->assign(padded, 0.0);
+}
+
+void BandMatrix::reserve(int size) {
+  const auto padded = static_cast<std::size_t>(size + kBlock * kBlocks);
+  columns_.reserve(padded);
+  for (auto* v : {&inverse_pivots_, &in_, &out_}) v->reserve(padded);
+}
+
+void BandMatrix::fix(int index) {
+  for (int column = kBlock * std::max(0, index / kBlock - kBlocks + 1); column < index; ++column)
+    lower(index, column) = 0.0;
+  columns_[static_cast<std::size_t>(index)].fill(0.0);
+  lower(index, index) = 1.0;
+}
+
+int BandMatrix::factorise(double shift) {
+  for (int c = size_; c < kBlock * blocks(); ++c) fix(c);
+  return kernels().factorise(columns_.data(), inverse_pivots_.data(), size_, shift);
+}
+
+void BandMatrix::solve(std::vector<double>& x) {
+  std::copy_n(x.begin(), size_, in_.begin());
+  kernels().solve(columns_.data(), inverse_pivots_.data(), blocks(), in_.data());
+  std::copy_n(in_.begin(), size_, x.begin());
+}
+
+void BandMatrix::multiply(const std::vector<double>& x, std::vector<double>& y) {
+  std::copy_n(x.begin(), size_, in_.begin());
+  std::fill(out_.begin(), out_.end(), 0.0);
+  kernels().multiply(columns_.data(), blocks(), in_.data(), out_.data());
+  std::copy_n(out_.begin(), size_, y.begin());
 }
 
 }  // namespace endowire::math
