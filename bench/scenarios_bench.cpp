@@ -1,6 +1,7 @@
 // bench_scenarios [options] [NAME or SCENE.toml ...]: plays whole procedures and times their steps.
 //
 //   --list            the scenarios that ship
+//   --machine         the name of this machine's folder of results
 //   --out FOLDER      where NAME.json, NAME.csv, NAME.svg and summary.csv go; bench/results/MACHINE
 //   --json            one round of each scenario without the stage clock, a line of JSON each, no files: for comparisons
 //   --cache FOLDER    distance fields are kept there; else prepared now, and that is timed
@@ -37,7 +38,7 @@ struct Options {
   fs::path cache;
   double step_mm = 0.0;
   std::string group;
-  bool list = false, json = false;
+  bool list = false, machine = false, json = false;
   std::vector<std::string> names;
 };
 
@@ -51,6 +52,8 @@ Options options_of(const std::vector<std::string>& arguments) {
     };
     if (argument == "--list") {
       options.list = true;
+    } else if (argument == "--machine") {
+      options.machine = true;
     } else if (argument == "--json") {
       options.json = true;
     } else if (argument == "--out") {
@@ -166,6 +169,10 @@ void sum_up(const fs::path& folder, const std::vector<bench::Scenario>& timed) {
 }
 
 int bench_all(const Options& options) {
+  if (options.machine) {
+    fmt::print("{}\n", bench::machine_slug());
+    return 0;
+  }
   const std::vector<bench::Scenario> all = chosen(options);
   if (options.list) {
     for (const bench::Scenario& scenario : all) fmt::print("{:<36}{}\n", scenario.name, scenario.what);
