@@ -111,8 +111,7 @@ double rounded(double value, double per_unit) {
 }  // namespace
 
 std::vector<ReferenceScene> reference_scenes() {
-  return {{"generated_entry", root / "scenes/generated_entry.toml"},
-          {"generated_left_carotid", root / "scenes/generated_left_carotid.toml"},
+  return {{"generated_left_carotid", root / "scenes/generated_left_carotid.toml"},
           {"generated_right_carotid", root / "scenes/generated_right_carotid.toml"},
           {"carotid_siphon", root / "bench/scenes/carotid_siphon.toml"},
           {"femoral_entry", root / "scenes/femoral_entry.toml", true},
