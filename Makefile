@@ -1,5 +1,5 @@
 # The commands of the project. Each installs the system packages it needs (tools/deps.sh), configures and builds.
-.PHONY: help deps run demo test test-long validation bench paper format lint clean
+.PHONY: help deps run demo test test-long validation bench bench-compare references paper format lint clean
 JOBS ?= $(shell nproc)
 
 help:
@@ -7,7 +7,9 @@ help:
 	@echo "make test       everything that is checked, at most 45 minutes on 2 cores"
 	@echo "make test-long  sweeps that take longer"
 	@echo "make validation docs/validation.md and its pictures, from the code that the tests assert"
-	@echo "make bench      speed"
+	@echo "make bench      speed: parts and whole procedures, kept in bench/results"
+	@echo "make bench-compare BASE=<git revision>   is this tree faster, and does it give the same states?"
+	@echo "make references shapes and forces that the tests compare with, after a change that is meant"
 	@echo "make paper      tries the claims of the paper: docs/paper.md, ten minutes"
 	@echo "make format     clang-format over all sources"
 	@echo "make lint       clang-tidy over the library"
@@ -47,7 +49,19 @@ bench:
 	@tools/deps.sh bench
 	cmake --preset bench
 	cmake --build --preset bench --parallel $(JOBS)
-	@for binary in $$(find build/bench/bench -maxdepth 1 -type f -perm -u+x -name 'bench_*'); do $$binary || exit 1; done
+	tools/bench.sh build/bench/bench
+
+# Is this tree faster than the revision BASE? Ratios of runs in turns; ROUNDS and SCENARIOS may be given.
+bench-compare:
+	@tools/deps.sh bench
+	@tools/compare_builds.sh $(or $(BASE),$(error make bench-compare BASE=<git revision>)) $(or $(ROUNDS),5) $(SCENARIOS)
+
+# After a change of numbers that is meant: what `test_references` compares with.
+references:
+	@tools/deps.sh test
+	cmake --preset check
+	cmake --build --preset check --parallel $(JOBS) --target write_references
+	build/check/tests/write_references
 
 paper:
 	@tools/deps.sh bench

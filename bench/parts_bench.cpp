@@ -1,8 +1,12 @@
-// Time of the parts of a step, each alone. Arguments are numbers of rods; complexity should be linear.
+// Time of the parts of a step, each alone, and beside the limits that they are to keep. Arguments are numbers of rods; complexity should
+// be linear.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "endowire/contact/contact_set.hpp"
@@ -12,6 +16,7 @@
 #include "endowire/vessel/analytic_field.hpp"
 #include "endowire/vessel/mesh_field.hpp"
 #include "endowire/vessel/repair.hpp"
+#include "limits.hpp"
 #include "support/chain_states.hpp"
 #include "support/frames.hpp"
 #include "support/generated_meshes.hpp"
@@ -90,7 +95,23 @@ void band_solve(benchmark::State& state) {
   state.SetComplexityN(state.range(0));
 }
 
-void retract(benchmark::State& state) {
+void band_factorise_and_solve(benchmark::State& state) {
+  BentChain chain(rods_of(state));
+  chain.differentiate();
+  math::BandMatrix matrix;
+  std::vector<double> x = chain.direction;
+  for (auto _ : state) {
+    matrix = chain.hessian;
+    if (matrix.factorise(1e3) != 0) state.SkipWithError("the matrix is not positive definite");
+    x = chain.direction;
+    matrix.solve(x);
+    benchmark::ClobberMemory();
+  }
+  state.SetComplexityN(state.range(0));
+}
+
+/// Positions and frames of a trial state.
+void kinematics(benchmark::State& state) {
   BentChain chain(rods_of(state));
   rod::ChainShape out = chain.shape;
   bool done = true;
@@ -150,7 +171,10 @@ void detect(benchmark::State& state, const vessel::Field& field) {
     contact.detect(wire, field, spec);
     benchmark::ClobberMemory();
   }
-  state.counters["samples"] = static_cast<double>(contact.samples().size());
+  const auto samples = static_cast<double>(contact.samples().size());
+  state.counters["samples"] = samples;
+  state.counters["s_per_sample"] = benchmark::Counter(
+      samples, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 void detect_in_analytic_tube(benchmark::State& state) {
@@ -179,10 +203,47 @@ BENCHMARK(self_overlap)->Arg(100)->Arg(300)->Arg(1000)->Arg(2600)->Complexity(be
 BENCHMARK(joint_derivatives)->Arg(100)->Arg(300)->Arg(1000)->Complexity(benchmark::oN);
 BENCHMARK(band_factorise)->Arg(100)->Arg(300)->Arg(1000)->Complexity(benchmark::oN);
 BENCHMARK(band_solve)->Arg(100)->Arg(300)->Arg(1000)->Complexity(benchmark::oN);
-BENCHMARK(retract)->Arg(100)->Arg(300)->Arg(1000)->Complexity(benchmark::oN);
+BENCHMARK(band_factorise_and_solve)->Arg(100)->Arg(300)->Arg(1000)->Complexity(benchmark::oN);
+BENCHMARK(kinematics)->Arg(100)->Arg(300)->Arg(1000)->Complexity(benchmark::oN);
 BENCHMARK(analytic_lookup);
 BENCHMARK(mesh_lookup);
 BENCHMARK(detect_in_analytic_tube)->Arg(100)->Arg(300)->Arg(1000)->Unit(benchmark::kMicrosecond);
 BENCHMARK(detect_in_mesh_tube)->Arg(100)->Unit(benchmark::kMicrosecond);
 
+/// Prints as Google Benchmark does, and at the end what the parts took beside their limits.
+class Reporter final : public benchmark::ConsoleReporter {
+ public:
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs) {
+      if (run.run_type == Run::RT_Iteration)
+        us_.emplace_back(run.benchmark_name(),
+                         1e6 * run.cpu_accumulated_time / static_cast<double>(run.iterations));
+    }
+    ConsoleReporter::ReportRuns(runs);
+  }
+  void Finalize() override {
+    std::printf("\n%-28s%8s%12s%12s%8s\n", "part", "joints", "took [us]", "limit [us]", "ratio");
+    for (const bench::Limit& limit : bench::limits)
+      print(std::string(limit.part) + "/" + std::to_string(limit.joints), std::string(limit.part),
+            limit.joints, limit.us);
+    print("mesh_lookup", "mesh_lookup", 0, bench::lookup_us);
+  }
+
+ private:
+  void print(const std::string& name, const std::string& part, int joints, double limit_us) const {
+    for (const auto& [run, us] : us_)
+      if (run == name)
+        std::printf("%-28s%8d%12.3f%12.3f%8.2f\n", part.c_str(), joints, us, limit_us, us / limit_us);
+  }
+  std::vector<std::pair<std::string, double>> us_;
+};
+
 }  // namespace
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  Reporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  return 0;
+}

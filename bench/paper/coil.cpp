@@ -20,13 +20,13 @@ constexpr double kLumenRadius_mm = 4.0;
 constexpr double kWindow_mm = 100.0;
 constexpr double kLeastRods = 150.0;
 
+}  // namespace
+
 rod::Instrument long_wire() {
   rod::Instrument wire = test::hydrophilic_035_angled();
   wire.sections.back().length_mm += kLongWire_mm + 20.0 - 1800.0;
   return wire;
 }
-
-}  // namespace
 
 Coil coil() {
   constexpr double climb = kPitch_mm / (2.0 * std::numbers::pi);

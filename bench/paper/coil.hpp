@@ -19,6 +19,9 @@ struct Coil {
 };
 [[nodiscard]] Coil coil();
 
+/// A 0.035" hydrophilic wire, long enough to be pushed in so far.
+[[nodiscard]] rod::Instrument long_wire();
+
 /// What a step takes while a hundred millimetres of wire go in.
 struct LongWireRow {
   double inserted_mm = 0.0;     ///< at the end of the window

@@ -65,6 +65,7 @@ class Simulation::Impl {
   void save(State& out) const;
   void snapshot(Snapshot& out) const;
   void waypoint(int index, Snapshot& out) const;
+  void observe_stages(base::StageObserver* observer);
 
   State state_;  ///< the last converged state
   StepReport report_;
@@ -107,6 +108,7 @@ class Simulation::Impl {
   double traced_inserted_mm_ = 0.0;
   std::vector<Eigen::Vector3d> predicted_;
   int attempts_ = 0;  ///< sub-steps of the present step
+  base::StageObserver* stages_ = nullptr;
 };
 
 Simulation::Impl::Impl(std::shared_ptr<const vessel::Field> field, rod::Instrument instrument, Access access,
@@ -248,6 +250,7 @@ void Simulation::Impl::restore(const State& state) {
 }
 
 const StepReport& Simulation::Impl::step(const Command& command) {
+  const base::StageScope stage(stages_, base::Stage::rest);
   std::vector<Event> events = std::move(report_.events);  // keeps its memory
   events.clear();
   report_ = StepReport{};
@@ -299,6 +302,7 @@ bool Simulation::Impl::advance(const Command& command, int split) {
 }
 
 bool Simulation::Impl::advance_once(const Command& command) {
+  const base::StageScope stage(stages_, base::Stage::predict);
   Feed& feed = problem_.feed;
   // The end of the wire stays outside: there is nothing left to push.
   const double most = line_.length_mm() - kSheathRod_mm;
@@ -338,7 +342,10 @@ bool Simulation::Impl::advance_once(const Command& command) {
     sheath_.fill_from(problem_.shape.rods() - 2, problem_);
   }
   const int n = problem_.shape.rods();
-  problem_.contact.place(wire(), n - 1, *field_, contact_spec_, in_sheath_before ? 0.0 : advance_mm);
+  {
+    const base::StageScope placing(stages_, base::Stage::place);
+    problem_.contact.place(wire(), n - 1, *field_, contact_spec_, in_sheath_before ? 0.0 : advance_mm);
+  }
   problem_.release_all();
   problem_.hold_joint(n - 1, true, true, true);
   predicted_.assign(problem_.shape.joints_mm.begin(), problem_.shape.joints_mm.end());
@@ -355,8 +362,12 @@ void Simulation::Impl::adapt_rods() {
 
 /// Detects once and minimises; check_walls() is asked on the way.
 bool Simulation::Impl::settle() {
+  const base::StageScope stage(stages_, base::Stage::rest);
   contact::ContactSet& contact = problem_.contact;
-  contact.detect(wire(), *field_, contact_spec_);
+  {
+    const base::StageScope detecting(stages_, base::Stage::detect);
+    contact.detect(wire(), *field_, contact_spec_);
+  }
   report_.detections += 1.0;
   rounds_ = corrections_ = 0;
   report_.solve = newton_.minimise(problem_, newton_spec_);
@@ -367,6 +378,7 @@ bool Simulation::Impl::settle() {
 /// Whether the local walls agree with the field; samples that they fail are detected anew, the others are not.
 solve::Validity Simulation::Impl::check_walls() {
   if (spec_.solver.detection != Detection::as_needed) return solve::Validity::holds;
+  const base::StageScope stage(stages_, base::Stage::verify);
   contact::ContactSet& contact = problem_.contact;
   ++report_.verifications;
   const bool rough = rounds_ >= kUnevenFrom;
@@ -389,6 +401,7 @@ solve::Validity Simulation::Impl::check_walls() {
 
 /// Detects the samples found wrong, and counts each as its part of a detection.
 void Simulation::Impl::redetect() {
+  const base::StageScope stage(stages_, base::Stage::detect);
   contact::ContactSet& contact = problem_.contact;
   report_.detections += static_cast<double>(contact.redetect(wire(), *field_, contact_spec_)) /
                         static_cast<double>(contact.samples().size());
@@ -396,6 +409,7 @@ void Simulation::Impl::redetect() {
 
 /// Detection of the whole wire on its way to equilibrium.
 void Simulation::Impl::detect_again() {
+  const base::StageScope stage(stages_, base::Stage::detect);
   problem_.contact.detect_again(wire(), *field_, contact_spec_);
   report_.detections += 1.0;
 }
@@ -408,6 +422,7 @@ bool Simulation::Impl::tip_cuts_corner(const Command& command) const {
 
 /// Keeps the present shape, on its way to equilibrium, if the wire has moved since the last one kept and lies clear.
 void Simulation::Impl::keep_waypoint() {
+  const base::StageScope stage(stages_, base::Stage::rest);
   const std::vector<Eigen::Vector3d>& joints = problem_.shape.joints_mm;
   const Eigen::Vector3d* last = waypoints_.last_mm(joints.size());
   if (last == nullptr) last = predicted_.data();
@@ -428,6 +443,11 @@ void Simulation::Impl::waypoint(int index, Snapshot& out) const {
     point.radius_mm = line_.radius_mm(point.arc_mm);
     out.points.push_back(point);
   }
+}
+
+void Simulation::Impl::observe_stages(base::StageObserver* observer) {
+  stages_ = observer;
+  newton_.observe_stages(observer);
 }
 
 void Simulation::Impl::finish(const Command& command) {
@@ -525,6 +545,9 @@ int Simulation::waypoints() const {
 }
 void Simulation::waypoint(int index, Snapshot& out) const {
   impl_->waypoint(index, out);
+}
+void Simulation::observe_stages(base::StageObserver* observer) {
+  impl_->observe_stages(observer);
 }
 
 }  // namespace endowire::sim

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "endowire/base/stage.hpp"
 #include "endowire/rod/instrument.hpp"
 #include "endowire/sim/event.hpp"
 #include "endowire/sim/scene.hpp"
@@ -74,6 +75,9 @@ class Simulation {
   /// after an ordinary step.
   [[nodiscard]] int waypoints() const;
   void waypoint(int index, Snapshot& out) const;
+  /// From now on tells `observer` which stage a step is in, so that a clock of the caller's can divide its time; nullptr: nobody.
+  /// No result depends on it. It must outlive its use here.
+  void observe_stages(base::StageObserver* observer);
 
  private:
   class Impl;

@@ -61,6 +61,7 @@ Newton::Norms Newton::norms(const std::vector<double>& v) {
 }
 
 double Newton::linearise(Problem& problem) {
+  const base::StageScope stage(stages_, base::Stage::linearise);
   hessian_.set_zero();
   std::fill(gradient_.begin(), gradient_.end(), 0.0);
   return problem.linearise(hessian_, gradient_);
@@ -76,6 +77,7 @@ int Newton::inertia(Problem& problem) {
 
 /// Sets matrix_ and model_gradient_ at direction_; returns the value of the model there.
 ContactPart Newton::model_at_direction(Problem& problem, double lambda, ContactHessian kind) {
+  const base::StageScope stage(stages_, base::Stage::contact_model);
   matrix_ = hessian_;
   double value = 0.0;
   if (std::all_of(direction_.begin(), direction_.end(), [](double d) { return d == 0.0; })) {
@@ -96,6 +98,7 @@ ContactPart Newton::model_at_direction(Problem& problem, double lambda, ContactH
 /// One round: from the model at direction_, which matrix_ and model_gradient_ hold, to round_. False when the matrix is not
 /// positive definite.
 bool Newton::solve_round(double lambda, SolveReport& report) {
+  const base::StageScope stage(stages_, base::Stage::factorise);
   ++report.factorisations;
   if (matrix_.factorise(lambda) > 0) return false;
   for (std::size_t i = 0; i < round_.size(); ++i) round_[i] = -model_gradient_[i];
@@ -195,6 +198,7 @@ bool Newton::find_direction(Problem& problem, double trust_mm, const NewtonSpec&
 
 Newton::Step Newton::search_line(Problem& problem, const NewtonSpec& spec, double trust_mm,
                                  SolveReport& report) {
+  const base::StageScope stage(stages_, base::Stage::line_search);
   const Norms whole = norms(direction_);
   const double descent = dot(gradient_, direction_);
   if (!(descent < 0.0)) return {};

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "endowire/base/stage.hpp"
 #include "endowire/math/band_ldlt.hpp"
 #include "endowire/solve/solve_report.hpp"
 
@@ -115,6 +116,8 @@ class Newton {
   SolveReport minimise(Problem& problem, const NewtonSpec& spec);
   /// Negative eigenvalues of the Hessian, contacts included, at the problem's base state.
   int inertia(Problem& problem);
+  /// Tells `observer` where the time goes; nullptr: nobody. It must outlive its use here.
+  void observe_stages(base::StageObserver* observer) { stages_ = observer; }
 
  private:
   struct Norms {
@@ -141,6 +144,7 @@ class Newton {
 
   math::BandMatrix hessian_, matrix_;
   std::vector<double> gradient_, model_gradient_, direction_, round_, product_, best_, kept_;
+  base::StageObserver* stages_ = nullptr;
   double lambda_ = 0.0;       ///< of the present direction
   double last_weight_ = 0.0;  ///< of the last iteration that needed one
 };
