@@ -18,24 +18,34 @@ Eigen::Vector3d joint_motion(const std::vector<double>& step, int joint, const G
 
 /// Derivatives by the position of a sample and the spin of its rod.
 struct AtSample {
-  bool touches = false;
-  bool changed = false;
-  double energy_mj = 0.0;
   Eigen::Vector4d gradient = Eigen::Vector4d::Zero();
   Eigen::Matrix4d hessian = Eigen::Matrix4d::Zero();
 };
 
-void add_walls(LinearContact& c, const Eigen::Vector3d& u, bool assumed, AtSample& out) {
+/// By how much each wall is pressed, after the motion.
+using Pressed = std::array<double, kMaxWalls>;
+
+/// @return  whether a wall counts as closed
+bool press_walls(LinearContact& c, const Eigen::Vector3d& u, bool assumed, Pressed& pressed_mm,
+                 ModelPart& part) {
+  bool closed = false;
   for (int k = 0; k < c.walls; ++k) {
     LinearContact::Wall& wall = c.wall[at(k)];
     const double pressed = wall.depth_mm - wall.zero_mm - wall.normal.dot(u);
-    out.changed = out.changed || (pressed > 0.0) != wall.closed;
+    pressed_mm[at(k)] = pressed;
+    part.changed = part.changed || (pressed > 0.0) != wall.closed;
     if (!assumed) wall.closed = pressed > 0.0;
-    const double force = wall.stiffness_n_per_mm * pressed;
-    if (pressed > 0.0) out.energy_mj += 0.5 * force * pressed;
+    if (pressed > 0.0) part.energy_mj += 0.5 * wall.stiffness_n_per_mm * pressed * pressed;
+    closed = closed || wall.closed;
+  }
+  return closed;
+}
+
+void add_walls(const LinearContact& c, const Pressed& pressed_mm, AtSample& out) {
+  for (int k = 0; k < c.walls; ++k) {
+    const LinearContact::Wall& wall = c.wall[at(k)];
     if (!wall.closed) continue;
-    out.touches = true;
-    out.gradient.head<3>() -= force * wall.normal;
+    out.gradient.head<3>() -= wall.stiffness_n_per_mm * pressed_mm[at(k)] * wall.normal;
     out.hessian.topLeftCorner<3, 3>() += wall.stiffness_n_per_mm * wall.normal * wall.normal.transpose();
   }
 }
@@ -46,20 +56,20 @@ Eigen::Matrix<double, 2, 4> slip_by_motion(const LinearContact& c) {
   return by;
 }
 
-void add_friction(LinearContact& c, const Eigen::Vector4d& motion, bool majorant, AtSample& out) {
+void add_friction(LinearContact& c, const Eigen::Vector4d& motion, bool majorant, AtSample& out,
+                  ModelPart& part) {
   const Eigen::Matrix<double, 2, 4> by = slip_by_motion(c);
   const Eigen::Vector2d slip = c.slip_mm + by * motion;
   FrictionResponse f = friction_response(c.friction, slip);
   const bool stuck = c.friction.stiffness_n_per_mm * slip.norm() <= c.friction.limit_n;
   // What slides back, or far to the side of where it slid, is as far from the parabola last used as what sticks.
   const bool turned = !stuck && slip.dot(c.slid_mm) < kSameWay * slip.norm() * c.slid_mm.norm();
-  out.changed = out.changed || stuck != c.stuck || turned;
+  part.changed = part.changed || stuck != c.stuck || turned;
   c.stuck = stuck;
   c.slid_mm = slip;
   if (majorant && !stuck)
     f.stiffness_n_per_mm = c.friction.limit_n / slip.norm() * Eigen::Matrix2d::Identity();
-  out.touches = true;
-  out.energy_mj += f.energy_mj;
+  part.energy_mj += f.energy_mj;
   out.gradient.noalias() += by.transpose() * f.force_n;
   const Eigen::Matrix<double, 2, 4> stiff = f.stiffness_n_per_mm.lazyProduct(by);
   out.hessian.noalias() += by.transpose().lazyProduct(stiff);
@@ -117,16 +127,17 @@ ModelPart ContactModel::add_derivatives(const std::vector<double>& step, solve::
                                         const GuidedJoint& guided, math::BandMatrix& hessian,
                                         std::vector<double>& gradient) {
   ModelPart part;
+  Pressed pressed_mm{};
   for (LinearContact& c : contacts_) {
     const Eigen::Vector3d u = motion_of(c, step, guided);
+    const bool touches = press_walls(c, u, kind == solve::ContactHessian::assumed, pressed_mm, part);
+    const bool rubs = c.friction.limit_n > 0.0;
+    if (!touches && !rubs) continue;
     AtSample s;
-    add_walls(c, u, kind == solve::ContactHessian::assumed, s);
-    if (c.friction.limit_n > 0.0)
-      add_friction(c, {u[0], u[1], u[2], step[at(4 * c.rod + 3)]}, kind == solve::ContactHessian::majorant,
-                   s);
-    part.changed = part.changed || s.changed;
-    part.energy_mj += s.energy_mj;
-    if (!s.touches) continue;
+    if (touches) add_walls(c, pressed_mm, s);
+    if (rubs)
+      add_friction(c, {u[0], u[1], u[2], step[at(4 * c.rod + 3)]}, kind == solve::ContactHessian::majorant, s,
+                   part);
     scatter_gradient(c.rod, c.fraction, s.gradient, guided, gradient);
     scatter_hessian(c, s.hessian, guided, hessian);
   }

@@ -6,6 +6,7 @@
 
 #include "endowire/base/contract.hpp"
 #include "endowire/math/transport.hpp"
+#include "endowire/rod/joint_blocks.hpp"
 
 namespace endowire::rod {
 
@@ -99,75 +100,50 @@ double chain_energy(const ChainMaterial& material, const ChainShape& shape) {
     energy += 0.5 * material.stretch_n_per_mm[at(i)] * stretch * stretch;
   }
   for (int j = 1; j < rods; ++j) {
-    energy += joint_energy(material.joints[at(j)], shape.frames[at(j)], shape.frames[at(j - 1)],
-                           shape.twist_rad[at(j)]);
+    const JointMaterial& joint = material.joints[at(j)];
+    const Frame& hand_side = shape.frames[at(j)];
+    const Frame& tip_side = shape.frames[at(j - 1)];
+    energy += is_straight(joint, {hand_side, tip_side})
+                  ? straight_joint_energy(joint, hand_side, tip_side, shape.twist_rad[at(j)])
+                  : joint_energy(joint, hand_side, tip_side, shape.twist_rad[at(j)]);
   }
   return energy;
 }
 
 namespace {
 
-/// Lays a joint's derivatives from the turns of its rods onto the unknowns of the joints before, at and after it.
-///
-///   turnₐ = mₐ·δt/|t| − (e·δt)(mₐ·δt)/|t|² + …,  third turn = δθ
-///
-/// The quadratic part is why the gradient enters the Hessian. With e for the rod on the hand's side (t = x_j − x_{j+1}) and
-/// f for the one on the tip's (t = x_{j−1} − x_j), the blocks K of the two rods go to the joints by their signs.
-void add_joint(const JointDerivatives& d, const Frame& hand_side, double hand_length, const Frame& tip_side,
-               double tip_length, int first, math::BandMatrix& hessian, std::vector<double>& gradient) {
-  using Lever = Eigen::Matrix<double, 3, 2>;
-  const Lever a = hand_side.leftCols<2>() / hand_length;
-  const Lever b = tip_side.leftCols<2>() / tip_length;
-  const auto& h = d.hessian;
-  const auto block = [](const Lever& left, const Eigen::Matrix2d& middle, const Lever& right) {
-    const Lever lm = left.lazyProduct(middle);
-    return Eigen::Matrix3d(lm.lazyProduct(right.transpose()));
-  };
-  const auto turning = [](const Eigen::Vector3d& force, const Eigen::Vector3d& tangent, double length) {
-    const Eigen::Matrix3d outer = tangent * (force.transpose() / length);
-    return Eigen::Matrix3d(-outer - outer.transpose());
-  };
-  const Eigen::Vector3d ge = a * d.gradient.segment<2>(0);
-  const Eigen::Vector3d gf = b * d.gradient.segment<2>(3);
-  const Eigen::Matrix3d ee = block(a, h.block<2, 2>(0, 0), a) + turning(ge, hand_side.col(2), hand_length);
-  const Eigen::Matrix3d ff = block(b, h.block<2, 2>(3, 3), b) + turning(gf, tip_side.col(2), tip_length);
-  const Eigen::Matrix3d ef = block(a, h.block<2, 2>(0, 3), b);
-  // Spin of the rod on the hand's side (column 2) and on the tip's side (column 5) with the two tangents.
-  const Eigen::Vector3d e_hand = a * h.block<2, 1>(0, 2);
-  const Eigen::Vector3d f_hand = b * h.block<2, 1>(3, 2);
-  const Eigen::Vector3d e_tip = a * h.block<2, 1>(0, 5);
-  const Eigen::Vector3d f_tip = b * h.block<2, 1>(3, 5);
-
-  const Eigen::Matrix3d middle = ee - ef - ef.transpose() + ff;
+/// Lays a joint's derivatives onto the unknowns of the joints before, at and after it: tᵉ = x_j − x_{j+1}, tᶠ = x_{j−1} − x_j.
+void add_joint(const JointBlocks& d, int first, math::BandMatrix& hessian, std::vector<double>& gradient) {
+  const Eigen::Matrix3d middle = d.hand_hand - d.hand_tip - d.hand_tip.transpose() + d.tip_tip;
   const int tip = first;
   const int own = first + 4;
   const int hand = first + 8;
   for (int r = 0; r < 3; ++r) {
-    gradient[at(tip + r)] += gf[r];
-    gradient[at(own + r)] += ge[r] - gf[r];
-    gradient[at(hand + r)] -= ge[r];
+    gradient[at(tip + r)] += d.tip[r];
+    gradient[at(own + r)] += d.hand[r] - d.tip[r];
+    gradient[at(hand + r)] -= d.hand[r];
     for (int c = 0; c <= r; ++c) {
-      hessian.lower(tip + r, tip + c) += ff(r, c);
+      hessian.lower(tip + r, tip + c) += d.tip_tip(r, c);
       hessian.lower(own + r, own + c) += middle(r, c);
-      hessian.lower(hand + r, hand + c) += ee(r, c);
+      hessian.lower(hand + r, hand + c) += d.hand_hand(r, c);
     }
     for (int c = 0; c < 3; ++c) {
-      hessian.lower(own + r, tip + c) += ef(r, c) - ff(r, c);
-      hessian.lower(hand + r, own + c) += ef(r, c) - ee(r, c);
-      hessian.lower(hand + r, tip + c) -= ef(r, c);
+      hessian.lower(own + r, tip + c) += d.hand_tip(r, c) - d.tip_tip(r, c);
+      hessian.lower(hand + r, own + c) += d.hand_tip(r, c) - d.hand_hand(r, c);
+      hessian.lower(hand + r, tip + c) -= d.hand_tip(r, c);
     }
-    hessian.lower(tip + 3, tip + r) += f_tip[r];
-    hessian.lower(own + r, tip + 3) += e_tip[r] - f_tip[r];
-    hessian.lower(hand + r, tip + 3) -= e_tip[r];
-    hessian.lower(own + 3, tip + r) += f_hand[r];
-    hessian.lower(own + 3, own + r) += e_hand[r] - f_hand[r];
-    hessian.lower(hand + r, own + 3) -= e_hand[r];
+    hessian.lower(tip + 3, tip + r) += d.tip_by_tip_spin[r];
+    hessian.lower(own + r, tip + 3) += d.hand_by_tip_spin[r] - d.tip_by_tip_spin[r];
+    hessian.lower(hand + r, tip + 3) -= d.hand_by_tip_spin[r];
+    hessian.lower(own + 3, tip + r) += d.tip_by_hand_spin[r];
+    hessian.lower(own + 3, own + r) += d.hand_by_hand_spin[r] - d.tip_by_hand_spin[r];
+    hessian.lower(hand + r, own + 3) -= d.hand_by_hand_spin[r];
   }
-  gradient[at(tip + 3)] += d.gradient[5];
-  gradient[at(own + 3)] += d.gradient[2];
-  hessian.lower(tip + 3, tip + 3) += h(5, 5);
-  hessian.lower(own + 3, tip + 3) += h(2, 5);
-  hessian.lower(own + 3, own + 3) += h(2, 2);
+  gradient[at(tip + 3)] += d.tip_spin;
+  gradient[at(own + 3)] += d.hand_spin;
+  hessian.lower(tip + 3, tip + 3) += d.tip_spin_twice;
+  hessian.lower(own + 3, tip + 3) += d.spins;
+  hessian.lower(own + 3, own + 3) += d.hand_spin_twice;
 }
 
 double add_stretch(double stiffness, double rest_length, double geometric_force, const Eigen::Vector3d& t,
@@ -195,14 +171,21 @@ double add_joint_derivatives(const ChainMaterial& material, const ChainShape& sh
                              math::BandMatrix& hessian, std::vector<double>& gradient) {
   const int rods = shape.rods();
   double energy = 0.0;
-  JointDerivatives d;
+  JointDerivatives general;
+  JointBlocks d;
+  double hand_length = (shape.joints_mm[0] - shape.joints_mm[1]).norm();
   for (int j = 1; j < rods; ++j) {
-    const double hand_length = (shape.joints_mm[at(j)] - shape.joints_mm[at(j + 1)]).norm();
-    const double tip_length = (shape.joints_mm[at(j - 1)] - shape.joints_mm[at(j)]).norm();
-    joint_derivatives(material.joints[at(j)], shape.frames[at(j)], shape.frames[at(j - 1)],
-                      shape.twist_rad[at(j)], d);
-    add_joint(d, shape.frames[at(j)], hand_length, shape.frames[at(j - 1)], tip_length, 4 * (j - 1), hessian,
-              gradient);
+    const double tip_length = hand_length;
+    hand_length = (shape.joints_mm[at(j)] - shape.joints_mm[at(j + 1)]).norm();
+    const JointRods pair{shape.frames[at(j)], shape.frames[at(j - 1)], hand_length, tip_length};
+    if (is_straight(material.joints[at(j)], pair)) {
+      straight_joint(material.joints[at(j)], pair, shape.twist_rad[at(j)], d);
+    } else {
+      joint_derivatives(material.joints[at(j)], pair.hand_side, pair.tip_side, shape.twist_rad[at(j)],
+                        general);
+      blocks_of(general, pair, d);
+    }
+    add_joint(d, 4 * (j - 1), hessian, gradient);
     energy += d.energy_mj;
   }
   return energy;

@@ -4,44 +4,13 @@
 #include <limits>
 #include <numbers>
 
+#include "endowire/rod/angle_factor.hpp"
+
 namespace endowire::rod {
 
 namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
-/// φ/sin φ and its derivatives by c = cos φ.
-struct AngleFactor {
-  double value, first, second;
-};
-
-/// k(c) = φ/sin φ obeys (1 − c²) k' = c k − 1; near c = 1 its series in y = 1 − c has the coefficients
-/// a₀ = 1, aₙ₊₁ = aₙ (n + 1)/(2n + 3), which halve at each term.
-AngleFactor angle_factor(double c) {
-  const double y = 1.0 - c;
-  if (y < 0.05) {
-    double value = 0.0, first = 0.0, second = 0.0, a = 1.0, power = 1.0;  // power = yⁿ⁻² from n = 2 on
-    constexpr int kTerms = 14;                                            // (0.05/2)¹⁴ < 1e-22
-    double y_n = 1.0, y_n1 = 0.0;
-    for (int n = 0; n < kTerms; ++n) {
-      value += a * y_n;
-      if (n >= 1) first -= n * a * y_n1;
-      if (n >= 2) {
-        second += n * (n - 1) * a * power;
-        power *= y;
-      }
-      y_n1 = y_n;
-      y_n *= y;
-      a *= (n + 1.0) / (2.0 * n + 3.0);
-    }
-    return {value, first, second};
-  }
-  const double s2 = (1.0 - c) * (1.0 + c);
-  const double value = std::acos(c) / std::sqrt(s2);
-  const double first = (c * value - 1.0) / s2;
-  const double second = (value + 3.0 * c * first) / s2;
-  return {value, first, second};
-}
 
 /// Energy of the kink law as a function of φ: value and two derivatives.
 struct KinkLaw {
@@ -54,8 +23,7 @@ double kink_by_span(const KinkLaw& law, double phi, double span_mm) {
 }
 
 KinkLaw kink_law(const JointMaterial& material, double phi) {
-  constexpr double kStart =
-      0.9;  // stiffening starts at 90 % of κ_m; five times EI κ_m is added at κ_m itself
+  constexpr double kStart = kKinkStart;
   const double width = (1.0 - kStart) * material.kink_per_mm;
   const double x = (phi / material.span_mm - kStart * material.kink_per_mm) / width;
   if (!(x > 0.0)) return {};
@@ -119,18 +87,6 @@ void add_side(const JointMaterial& material, const Side& side, const AngleFactor
                    (k.second * value * dc * dc.transpose() + k.first * value * ddc +
                     k.first * (cross + cross.transpose()) + k.value * ddp);
   }
-}
-
-/// Bending of a straight, round joint: E = (EI/2l̄) φ² depends on c alone, dφ²/dc = −2k. The two sides say the same.
-/// sin φ comes from the components of the tangent, as in joint_energy: 1 − c² has no digits left for small angles, and a merit
-/// that differs from that of the trial states stalls the line search.
-void add_straight(const JointMaterial& material, const AngleFactor& k, const Turns& dc, const Matrix6& ddc,
-                  JointDerivatives& out) {
-  const double stiffness = material.bend_n_mm2[0] / material.span_mm;
-  const double sine_squared = 0.5 * (dc.segment<2>(0).squaredNorm() + dc.segment<2>(3).squaredNorm());
-  out.energy_mj += 0.5 * stiffness * k.value * k.value * sine_squared;
-  out.gradient -= stiffness * k.value * dc;
-  out.hessian -= stiffness * (k.first * dc * dc.transpose() + k.value * ddc);
 }
 
 void add_twist(const JointMaterial& material, const Eigen::Matrix3d& p, double twist_rad, const Turns& dc,
@@ -211,7 +167,7 @@ double joint_energy(const JointMaterial& material, const Frame& hand_side, const
 }
 
 void joint_derivatives(const JointMaterial& material, const Frame& hand_side, const Frame& tip_side,
-                       double twist_rad, JointDerivatives& out, bool by_material) {
+                       double twist_rad, JointDerivatives& out) {
   out = JointDerivatives{};
   const Eigen::Matrix3d p = hand_side.transpose() * tip_side;
   const Eigen::Matrix3d pt = p.transpose();
@@ -224,14 +180,8 @@ void joint_derivatives(const JointMaterial& material, const Frame& hand_side, co
     for (int b = 0; b < 2; ++b) ddc(a, 3 + b) = ddc(3 + b, a) = p(a, b);
   }
   const AngleFactor k = angle_factor(c);
-  const bool straight =
-      material.rest_bend_rad.isZero(0.0) && material.bend_n_mm2[0] == material.bend_n_mm2[1];
-  if (straight && !by_material) {
-    add_straight(material, k, dc, ddc, out);
-  } else {
-    add_side(material, Side{p, 0, 3, 1.0}, k, dc, ddc, out);
-    add_side(material, Side{pt, 3, 0, -1.0}, k, dc, ddc, out);
-  }
+  add_side(material, Side{p, 0, 3, 1.0}, k, dc, ddc, out);
+  add_side(material, Side{pt, 3, 0, -1.0}, k, dc, ddc, out);
   const double bending_mj = out.energy_mj;
   add_twist(material, p, twist_rad, dc, out);
   out.twist_mj = out.energy_mj - bending_mj;

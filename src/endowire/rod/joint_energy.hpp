@@ -18,6 +18,9 @@ struct JointMaterial {
   double kink_per_mm = std::numeric_limits<double>::infinity();  ///< κ_m
 };
 
+/// The kink law begins at this share of κ_m; five times EI κ_m is added at κ_m itself.
+inline constexpr double kKinkStart = 0.9;
+
 /// Turns of the two rods at a joint: about m₁-wards, m₂-wards (a tangent moved along m₁, m₂) and the spin, first
 /// of the rod on the hand's side, then of the rod on the tip's side [rad].
 using Turns = Eigen::Matrix<double, 6, 1>;
@@ -27,7 +30,7 @@ struct JointDerivatives {
   double energy_mj = 0.0;
   Turns gradient = Turns::Zero();
   Eigen::Matrix<double, 6, 6> hessian = Eigen::Matrix<double, 6, 6>::Zero();
-  // Filled when asked for: what changes when the joint is made of another piece of wire.
+  // What changes when the joint is made of another piece of wire.
   Eigen::Vector2d bend_mj =
       Eigen::Vector2d::Zero();          ///< parts of the energy, proportional to EI₁/l̄ and EI₂/l̄
   double twist_mj = 0.0;                ///< part of the energy, proportional to GJ/l̄
@@ -67,8 +70,7 @@ struct JointDerivatives {
 
 /// The same with exact first and second derivatives. The second derivatives are those along great arcs of the
 /// tangents with frames transported in parallel from this state, which makes the Hessian symmetric.
-/// @param by_material  whether the derivatives by what the joint is made of are wanted; without them a straight joint is cheaper
 void joint_derivatives(const JointMaterial& material, const Frame& hand_side, const Frame& tip_side,
-                       double twist_rad, JointDerivatives& out, bool by_material = false);
+                       double twist_rad, JointDerivatives& out);
 
 }  // namespace endowire::rod

@@ -36,8 +36,7 @@ void add_joint(const rod::MaterialLine& line, const rod::ChainMaterial& material
                std::vector<double>& gradient) {
   const rod::JointMaterial& joint = material.joints[at(j)];
   rod::JointDerivatives d;
-  rod::joint_derivatives(joint, shape.frames[at(j)], shape.frames[at(j - 1)], shape.twist_rad[at(j)], d,
-                         true);
+  rod::joint_derivatives(joint, shape.frames[at(j)], shape.frames[at(j - 1)], shape.twist_rad[at(j)], d);
   const auto rate = [&](auto property) {
     return Eigen::Vector2d(span.to_rate * property(span.to_mm) - span.from_rate * property(span.from_mm));
   };

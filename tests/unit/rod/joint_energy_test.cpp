@@ -61,8 +61,7 @@ TEST_P(JointStates, TaylorSlopes) {
     frames_of(GetParam(), random, hand, tip);
     JointDerivatives d;
     const double near = GetParam().twist_rad;
-    // Every other trial takes the path that a straight round joint leaves out.
-    joint_derivatives(m, hand, tip, twist_between(hand, tip, near), d, trial % 2 == 1);
+    joint_derivatives(m, hand, tip, twist_between(hand, tip, near), d);
     Turns v;
     for (int i = 0; i < 6; ++i) v[i] = random.normal();
     v.normalize();
@@ -123,15 +122,15 @@ TEST_P(JointStates, RestDerivatives) {
   frames_of(GetParam(), random, hand, tip);
   const double twist = twist_between(hand, tip, GetParam().twist_rad);
   JointDerivatives d;
-  joint_derivatives(m, hand, tip, twist, d, true);
+  joint_derivatives(m, hand, tip, twist, d);
   constexpr double h = 1e-4;
   for (int a = 0; a < 2; ++a) {
     JointDerivatives ahead, behind;
     const double rest = m.rest_bend_rad[a];
     m.rest_bend_rad[a] = rest + h;
-    joint_derivatives(m, hand, tip, twist, ahead, true);
+    joint_derivatives(m, hand, tip, twist, ahead);
     m.rest_bend_rad[a] = rest - h;
-    joint_derivatives(m, hand, tip, twist, behind, true);
+    joint_derivatives(m, hand, tip, twist, behind);
     m.rest_bend_rad[a] = rest;
     EXPECT_NEAR(d.rest_gradient[a], (ahead.energy_mj - behind.energy_mj) / (2.0 * h), 1e-9);
     EXPECT_LT((d.rest_turn.row(a).transpose() - (ahead.gradient - behind.gradient) / (2.0 * h)).norm(), 1e-9);
