@@ -37,13 +37,7 @@ void print_library(bool as_json) {
     fmt::print("{}\n", list.dump(1));
     return;
   }
-  fmt::print("{:<28} {:>7} {:>7} {:>9} {:>9}  {}\n", "model", "mm", "cm", "EI tip", "EI shaft",
-             "EI in N mm2, as everywhere");
-  for (const io::InstrumentFile& file : library()) {
-    const io::InstrumentFacts facts = io::facts_of(rod::MaterialLine(file.instrument));
-    fmt::print("{:<28} {:>7.3f} {:>7.0f} {:>9.3g} {:>9.4g}  {}\n", file.instrument.model, facts.diameter_mm,
-               0.1 * facts.length_mm, facts.tip_rigidity_n_mm2, facts.shaft_rigidity_n_mm2, file.description);
-  }
+  fmt::print("{}", io::library_text(library()));
 }
 
 /// An instrument of the library, or of a file of one's own.
@@ -64,8 +58,7 @@ void print_instrument(const io::InstrumentFile& file) {
   const rod::MaterialLine line(file.instrument);
   fmt::print("{}\n{}\n{}\n\n", file.instrument.model, file.description, file.path);
   fmt::print("{}\n{}\n{}\n", io::sections_text(line), io::profile_text(line), io::shape_text(line));
-  for (const io::SourcedValue& value : file.values)
-    fmt::print("{:<44} {:<20} {}\n", value.field, value.value, value.source);
+  fmt::print("{}", io::values_text(file));
 }
 
 int run(const Options& options) {

@@ -22,23 +22,66 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+/// The cells of a table whose columns two blanks or more divide.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  for (std::size_t at = 0; at != std::string::npos;) {
+    const std::size_t end = line.find("  ", at);
+    if (end != at) cells.push_back(line.substr(at, end == std::string::npos ? end : end - at));
+    at = line.find_first_not_of(' ', end);
+  }
+  return cells;
+}
+
 TEST(Instruments, ListsTheLibraryAsAnAlignedTable) {
   const TemporaryFolder folder;
   const Outcome list = run_endowire(folder, {"instruments"});
   EXPECT_EQ(list.code, 0);
   const std::vector<std::string> lines = lines_of(list.out);
-  ASSERT_GE(lines.size(), 31U);
-  const std::size_t column = lines[0].find("EI in N mm2");
+  ASSERT_GE(lines.size(), 32U);
+  const std::vector<std::string> headings{"model",           "diameter mm",      "length cm",
+                                          "EI at tip N mm2", "EI at hand N mm2", "description"};
+  EXPECT_EQ(cells_of(lines[0]), headings) << "every number under its name and unit";
+  const std::size_t column = lines[0].find("description");
   for (std::size_t i = 1; i < lines.size(); ++i) {
+    EXPECT_EQ(cells_of(lines[i]).size(), headings.size()) << lines[i];
     ASSERT_GT(lines[i].size(), column) << lines[i];
     EXPECT_EQ(lines[i][column - 1], ' ') << lines[i];
     EXPECT_NE(lines[i][column], ' ') << lines[i];
+    // Numbers end under the ends of their headings.
+    for (std::size_t h = 1; h + 1 < headings.size(); ++h) {
+      const std::size_t end = lines[0].find(headings[h]) + headings[h].size();
+      EXPECT_NE(lines[i][end - 1], ' ') << lines[i];
+      EXPECT_EQ(lines[i][end], ' ') << lines[i];
+    }
   }
   const auto stiff = std::find_if(lines.begin(), lines.end(),
                                   [](const auto& line) { return line.starts_with("stiff_035_158gpa"); });
   ASSERT_NE(stiff, lines.end());
-  for (const char* const value : {"0.889", "260", "8", "4857"})
-    EXPECT_NE(stiff->find(value), std::string::npos);
+  EXPECT_EQ(cells_of(*stiff),
+            (std::vector<std::string>{"stiff_035_158gpa", "0.889", "260", "8", "4857",
+                                      "0.035 inch stiff wire, 260 cm, flexural modulus 158.4 GPa"}));
+}
+
+// Breaks when a column has a fixed width: the axial rigidities of a transition are longer than their heading.
+TEST(Instruments, SectionsOfAnInstrumentStandInColumns) {
+  const TemporaryFolder folder;
+  for (const char* const name : {"hydrophilic_035_angled", "coronary_014_floppy", "simmons_6f"}) {
+    const std::vector<std::string> lines = lines_of(run_endowire(folder, {"instruments", name}).out);
+    const auto head = std::find_if(lines.begin(), lines.end(), [](const auto& line) {
+      return line.find("from mm") != std::string::npos;
+    });
+    ASSERT_NE(head, lines.end());
+    int rows = 0;
+    for (auto row = head + 1; row != lines.end() && !row->empty(); ++row, ++rows) {
+      EXPECT_EQ(row->size(), head->size()) << *row;
+      EXPECT_EQ(row->find('e'),
+                row->find("none") == std::string::npos ? std::string::npos : row->find("none") + 3)
+          << "a power of ten: " << *row;
+      EXPECT_EQ(cells_of(row->substr(row->find_first_not_of(' '))).size(), 10U) << *row;
+    }
+    EXPECT_GT(rows, 1) << name;
+  }
 }
 
 TEST(Instruments, ShowsSectionsStiffnessShapeAndSources) {

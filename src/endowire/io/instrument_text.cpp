@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "endowire/io/instrument_facts.hpp"
+#include "endowire/io/text_table.hpp"
 
 namespace endowire::io {
 
@@ -17,9 +18,17 @@ constexpr int profile_rows = 8;
 constexpr int most_shape_rows = 18;
 constexpr double cell_aspect = 2.0;  // a character is twice as high as wide
 
+/// Four digits that count, without a power of ten where that is longer to read than the number.
+std::string number_text(double value) {
+  if (!std::isfinite(value)) return "none";
+  if (std::abs(value) < 1e4) return fmt::format("{:.4g}", value);
+  const double last = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 3.0);
+  return fmt::format("{:.0f}", last * std::round(value / last));
+}
+
 std::string ends_text(const rod::Taper& taper) {
-  const std::string tip = fmt::format("{:.4g}", taper.at_tip_side);
-  const std::string hand = fmt::format("{:.4g}", taper.at_hand_side);
+  const std::string tip = number_text(taper.at_tip_side);
+  const std::string hand = number_text(taper.at_hand_side);
   return tip == hand ? tip : tip + ".." + hand;
 }
 
@@ -85,22 +94,52 @@ std::string shape_text(const rod::MaterialLine& line) {
 }
 
 std::string sections_text(const rod::MaterialLine& line) {
-  std::string text = fmt::format("{:>9} {:>9} {:>15} {:>15} {:>15} {:>11} {:>8} {:>9} {:>11} {:>14}\n",
-                                 "from mm", "length mm", "EI N mm2", "GJ N mm2", "EA N", "radius mm",
-                                 "friction", "bend 1/mm", "kink 1/mm", "mass mg/mm");
+  TextTable table({{"from mm"},
+                   {"length mm"},
+                   {"EI N mm2"},
+                   {"GJ N mm2"},
+                   {"EA N"},
+                   {"radius mm"},
+                   {"friction"},
+                   {"bend 1/mm"},
+                   {"kink 1/mm"},
+                   {"mass mg/mm"}});
   double start = 0.0;
   for (const rod::Section& s : line.instrument().sections) {
     rod::Taper mass = s.linear_density_g_per_mm;
     mass.at_tip_side *= 1e3;
     mass.at_hand_side *= 1e3;
-    text +=
-        fmt::format("{:>9.5g} {:>9.5g} {:>15} {:>15} {:>15} {:>11} {:>8.3g} {:>9.3g} {:>11} {:>14}\n", start,
-                    s.length_mm, ends_text(s.flexural_rigidity_n_mm2), ends_text(s.torsional_rigidity_n_mm2),
-                    ends_text(s.axial_rigidity_n), ends_text(s.radius_mm), s.friction,
-                    s.rest_curvature_per_mm, ends_text(s.kink_curvature_per_mm), ends_text(mass));
+    table.add({number_text(start), number_text(s.length_mm), ends_text(s.flexural_rigidity_n_mm2),
+               ends_text(s.torsional_rigidity_n_mm2), ends_text(s.axial_rigidity_n), ends_text(s.radius_mm),
+               number_text(s.friction), number_text(s.rest_curvature_per_mm),
+               ends_text(s.kink_curvature_per_mm), ends_text(mass)});
     start += s.length_mm;
   }
-  return text;
+  return table.text();
+}
+
+std::string values_text(const InstrumentFile& file) {
+  constexpr auto left = TextTable::Align::left;
+  TextTable table({{"field", left}, {"value", left}, {"source", left}});
+  for (const SourcedValue& value : file.values) table.add({value.field, value.value, value.source});
+  return table.text();
+}
+
+std::string library_text(const std::vector<InstrumentFile>& files) {
+  constexpr auto left = TextTable::Align::left;
+  TextTable table({{"model", left},
+                   {"diameter mm"},
+                   {"length cm"},
+                   {"EI at tip N mm2"},
+                   {"EI at hand N mm2"},
+                   {"description", left}});
+  for (const InstrumentFile& file : files) {
+    const InstrumentFacts facts = facts_of(rod::MaterialLine(file.instrument));
+    table.add({file.instrument.model, fmt::format("{:.3f}", facts.diameter_mm),
+               number_text(0.1 * facts.length_mm), number_text(facts.tip_rigidity_n_mm2),
+               number_text(facts.shaft_rigidity_n_mm2), file.description});
+  }
+  return table.text();
 }
 
 }  // namespace endowire::io

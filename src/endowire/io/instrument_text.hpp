@@ -1,7 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "endowire/io/instrument_file.hpp"
 #include "endowire/rod/material_line.hpp"
 
 namespace endowire::io {
@@ -14,5 +16,11 @@ namespace endowire::io {
 
 /// The sections as a table, a line each.
 [[nodiscard]] std::string sections_text(const rod::MaterialLine& line);
+
+/// Every value of a file with its source, a line each.
+[[nodiscard]] std::string values_text(const InstrumentFile& file);
+
+/// The library as a table, a line for an instrument.
+[[nodiscard]] std::string library_text(const std::vector<InstrumentFile>& files);
 
 }  // namespace endowire::io

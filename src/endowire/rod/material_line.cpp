@@ -35,16 +35,27 @@ MaterialLine::MaterialLine(Instrument instrument) : instrument_(std::move(instru
   }
 }
 
+namespace {
+
+/// Ends of sections that agree so well are the same value, computed from two sides: no ramp.
+constexpr double kRounding = 1e-12;
+
+}  // namespace
+
 /// Where a section begins.
 void MaterialLine::lay_ramp(std::size_t k) {
   Ramp& ramp = ramps_[k];
   const double border = start_mm_[k];
   ramp.half_mm =
       0.5 * std::min({kRamp_mm, instrument_.sections[k - 1].length_mm, instrument_.sections[k].length_mm});
-  ramp.rest_per_mm = rest_per_mm_[k] - section_rest_per_mm(k - 1, border);
+  const Eigen::Vector2d rest_before = section_rest_per_mm(k - 1, border);
+  ramp.rest_per_mm = rest_per_mm_[k] - rest_before;
+  if (ramp.rest_per_mm.norm() <= kRounding * rest_before.norm()) ramp.rest_per_mm.setZero();
   const Eigen::Vector4d before = section_compliance(k - 1, border);
   const Eigen::Vector4d behind = section_compliance(k, border);
   ramp.compliance = behind - before;
+  ramp.compliance =
+      (ramp.compliance.array().abs() <= kRounding * before.array()).select(0.0, ramp.compliance);
   even_ = even_ && ramp.compliance.isZero(0.0);
   // At the border half of the jump is added before it and taken away behind it. Where a section stiffens so steeply away from the
   // border that less is there, the ramp is shorter.
@@ -226,7 +237,7 @@ double MaterialLine::rigidity_at(Profile Profiles::*profile, int which, double a
   const double own = value_at(profile, arc_mm);
   if (even_) return own;
   const NearBorder near = border_near(arc_mm);
-  if (near.ramp == nullptr) return own;
+  if (near.ramp == nullptr || near.ramp->compliance[which] == 0.0) return own;
   return 1.0 /
          (1.0 / own + near.ramp->compliance[which] * ramp_at(near.behind_mm, near.ramp->compliance_half_mm));
 }

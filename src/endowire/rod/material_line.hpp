@@ -20,7 +20,7 @@ inline constexpr double kRamp_mm = 2.0;
 ///
 /// Neither rest curvature nor compliance jump where sections meet: they change linearly over kRamp_mm, half of it on either side, and over
 /// less where a section is shorter than that. The turn of the unloaded wire and the compliance over both sections stay what the sections
-/// say.
+/// say. Where two sections meet with one value nothing is added.
 class MaterialLine {
  public:
   /// @throws base::InputError as Instrument::validate.

@@ -18,6 +18,11 @@ using Eigen::Vector3d;
 /// Cuts shorter than this would be sections of their own; they belong to their neighbours.
 constexpr double kLeastCut_mm = 0.1;
 
+/// The same direction within half a turn of 0: a helix that goes on from section to section turns far.
+double within_half_a_turn(double angle_rad) {
+  return std::remainder(angle_rad, 2.0 * std::numbers::pi);
+}
+
 /// Linear in the root of the taper, so that a part of it is a taper again.
 Taper part_of(const Taper& taper, double first, double last) {
   const Profile profile(taper);
@@ -35,7 +40,7 @@ Section part_of(const Section& section, double from_mm, double to_mm) {
         &Section::radius_mm, &Section::linear_density_g_per_mm, &Section::kink_curvature_per_mm,
         &Section::radiopacity})
     part.*taper = part_of(section.*taper, first, last);
-  part.rest_plane_rad += section.rest_torsion_per_mm * from_mm;
+  part.rest_plane_rad = within_half_a_turn(section.rest_plane_rad + section.rest_torsion_per_mm * from_mm);
   return part;
 }
 
@@ -133,7 +138,8 @@ void lay_rest_shape(const std::vector<RestPiece>& pieces, double over_mm, const 
     for (const RestPiece& piece : pieces) {
       if (middle >= piece_start && middle < piece_start + piece.length_mm) {
         section.rest_curvature_per_mm = piece.curvature_per_mm;
-        section.rest_plane_rad = piece.plane_rad + piece.torsion_per_mm * (start - piece_start);
+        section.rest_plane_rad =
+            within_half_a_turn(piece.plane_rad + piece.torsion_per_mm * (start - piece_start));
         section.rest_torsion_per_mm = piece.torsion_per_mm;
       }
       piece_start += piece.length_mm;

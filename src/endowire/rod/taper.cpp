@@ -31,6 +31,7 @@ Profile::Profile(const Taper& taper) : power_(taper.power) {
   sign_ = power_ != 1 && taper.at_tip_side < base_ ? -1.0 : 1.0;
   first_ = root_of(sign_ * (taper.at_tip_side - base_), power_);
   last_ = root_of(sign_ * (taper.at_hand_side - base_), power_);
+  if ((power_ == 2 || power_ == 4) && sign_ * base_ < 0.0) vanishes_at_ = root_of(-sign_ * base_, power_);
 }
 
 double Profile::value_of(double root) const {
@@ -69,16 +70,16 @@ double Profile::integral(double length_mm, double first, double last) const {
 double Profile::compliance(double length_mm, double first, double last) const {
   const double a = root_at(first);
   const double b = root_at(last);
-  const double ratio = a == b ? 0.0 : b / a - 1.0;
-  if (std::abs(ratio) < 1e-6) return length_mm / value_of(0.5 * (a + b));
-  if (power_ == 1) return length_mm * std::log1p(ratio) / (b - a);
+  const double nearest = std::min(std::abs(a - vanishes_at_), std::abs(b - vanishes_at_));
+  if (std::abs(b - a) < 1e-6 * nearest) return length_mm / value_of(0.5 * (a + b));
+  if (power_ == 1) return length_mm * std::log1p(b / a - 1.0) / (b - a);
   if (base_ != 0.0) return compliance_by_gauss(length_mm, a, b);
   if (power_ == 2) return length_mm / (a * b);
   return length_mm * (a * a + a * b + b * b) / (3.0 * a * a * a * b * b * b);
 }
 
-/// Five points on pieces over which the root changes by 3/2 at most: the nearest pole is then so far away that each piece is right to nine
-/// digits.
+/// Five points on pieces over which the distance to the root at which the rigidity vanishes changes by 3/2 at most: the wall of a tube may thin
+/// away within a few micrometres of bore. Poles off the real axis are never nearer to a root r than r/√2, so each piece is right to nine digits.
 double Profile::compliance_by_gauss(double length_mm, double a, double b) const {
   constexpr double kInner = 0.53846931010568309;
   constexpr double kOuter = 0.90617984593866399;
@@ -88,13 +89,14 @@ double Profile::compliance_by_gauss(double length_mm, double a, double b) const 
   constexpr std::array<double, 5> weights{kOuterWeight, kInnerWeight, 128.0 / 225.0, kInnerWeight,
                                           kOuterWeight};
   constexpr double kMostRatio = 1.5;
-  const double ratio = std::max(a / b, b / a);
-  const int pieces = std::max(1, static_cast<int>(std::ceil(std::log(ratio) / std::log(kMostRatio))));
-  const double grow = std::pow(b / a, 1.0 / pieces);
+  const double ratio = (b - vanishes_at_) / (a - vanishes_at_);
+  const int pieces =
+      std::max(1, static_cast<int>(std::ceil(std::abs(std::log(ratio)) / std::log(kMostRatio))));
+  const double grow = std::pow(ratio, 1.0 / pieces);
   double sum = 0.0;
   double from = a;
   for (int i = 0; i < pieces; ++i) {
-    const double to = i + 1 == pieces ? b : from * grow;
+    const double to = i + 1 == pieces ? b : vanishes_at_ + (from - vanishes_at_) * grow;
     double mean = 0.0;
     for (std::size_t k = 0; k < places.size(); ++k)
       mean += weights[k] / value_of(0.5 * (from + to) + 0.5 * (to - from) * places[k]);

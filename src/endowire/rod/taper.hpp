@@ -44,6 +44,7 @@ class Profile {
   double sign_ = 1.0;   ///< of what is added to the base
   double first_ = 0.0;  ///< root at the tip side
   double last_ = 0.0;
+  double vanishes_at_ = 0.0;  ///< the root at which the value would be 0, as where a tube has no wall; else 0
   int power_ = 1;
 };
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "endowire/base/error.hpp"
+#include "endowire/rod/rest_shape.hpp"
 #include "support/wires.hpp"
 
 namespace endowire::rod {
@@ -250,6 +251,127 @@ TEST(MaterialLine, RampsOfShortSectionsAreShorter) {
   EXPECT_NE(line.rest_bend_rad(0.89, 5.0).x(), 0.0);
   EXPECT_EQ(line.rest_bend_rad(0.9, 70.0).norm(), 0.0);
   EXPECT_EQ(line.rest_curvature_per_mm(0.9).norm(), 0.0);
+}
+
+/// Sections shorter than a ramp between long ones, and two short ones side by side; everything jumps everywhere.
+Instrument short_sections() {
+  Instrument w = three_cores();
+  w.sections[1].length_mm = 0.6;
+  w.sections.push_back(w.sections[0]);
+  w.sections[3].length_mm = 0.1;
+  w.sections.push_back(w.sections[2]);
+  w.sections[4].length_mm = 1.3;
+  w.sections[4].flexural_rigidity_n_mm2 = {40.0, 90.0};
+  w.sections.push_back(w.sections[1]);
+  w.sections[5].length_mm = 20.0;
+  return w;
+}
+
+// From the middle of a section to that of the next, turn and compliance are what the two halves say, however short they are. Breaks when a ramp
+// reaches past a middle, or lies to one side of its border.
+TEST(MaterialLine, RampsOfShortSectionsKeepTurnAndComplianceOfBothSections) {
+  const Instrument w = short_sections();
+  const MaterialLine line(w);
+  double border = 0.0;
+  for (std::size_t k = 0; k + 1 < w.sections.size(); ++k) {
+    const Section& before = w.sections[k];
+    const Section& behind = w.sections[k + 1];
+    border += before.length_mm;
+    const double from = border - 0.5 * before.length_mm;
+    const double to = border + 0.5 * behind.length_mm;
+    // Half a section, written again from the data.
+    const auto over_half = [](const Section& s, bool hand_half, auto integrand) {
+      constexpr int n = 20000;
+      auto sum = integrand(s, 0.5);
+      sum *= 0.0;
+      for (int i = 0; i < n; ++i)
+        sum += integrand(s, (hand_half ? 0.5 : 0.0) + 0.5 * (i + 0.5) / n) * (0.5 * s.length_mm / n);
+      return sum;
+    };
+    const auto over_both = [&](auto integrand) {
+      auto sum = over_half(before, true, integrand);
+      sum += over_half(behind, false, integrand);
+      return sum;
+    };
+    SCOPED_TRACE(k);
+    constexpr double kTolerance = 1e-8;
+    const auto compliance = [&](Taper Section::*taper) {
+      return over_both([&](const Section& s, double f) { return 1.0 / value(s.*taper, f); });
+    };
+    EXPECT_NEAR(
+        (to - from) / line.flexural_rigidity_n_mm2(from, to) / compliance(&Section::flexural_rigidity_n_mm2),
+        1.0, kTolerance);
+    EXPECT_NEAR((to - from) / line.torsional_rigidity_n_mm2(from, to) /
+                    compliance(&Section::torsional_rigidity_n_mm2),
+                1.0, kTolerance);
+    EXPECT_NEAR((to - from) / line.axial_rigidity_n(from, to) / compliance(&Section::axial_rigidity_n), 1.0,
+                kTolerance);
+    const Eigen::Vector2d turn = over_both([](const Section& s, double f) {
+      const double plane = s.rest_plane_rad + s.rest_torsion_per_mm * f * s.length_mm;
+      return Eigen::Vector2d(s.rest_curvature_per_mm * Eigen::Vector2d(std::cos(plane), std::sin(plane)));
+    });
+    EXPECT_LT((line.rest_bend_rad(from, to) - turn).norm(), kTolerance * (to - from));
+    // And what points say adds up to the same.
+    constexpr int n = 40000;
+    double bending = 0.0;
+    Eigen::Vector2d bend = Eigen::Vector2d::Zero();
+    for (int i = 0; i < n; ++i) {
+      const double arc = from + (to - from) * (i + 0.5) / n;
+      bending += (to - from) / n / line.flexural_rigidity_n_mm2(arc);
+      bend += (to - from) / n * line.rest_curvature_per_mm(arc);
+    }
+    EXPECT_NEAR(bending * line.flexural_rigidity_n_mm2(from, to) / (to - from), 1.0, 1e-6);
+    EXPECT_LT((bend - turn).norm(), 1e-6 * (to - from));
+  }
+}
+
+/// A taper on a helix of one turn, whole and cut in seven; twist alone changes behind the cuts.
+Instrument cut(bool in_parts) {
+  Instrument w = three_cores();
+  w.sections.resize(1);
+  w.sections[0].length_mm = 70.0;
+  w.sections[0].axial_rigidity_n = {300.0, 2400.0, 2, 100.0};
+  lay_rest_shape({RestPiece{70.0, 0.05, 0.0, 2.0 * std::numbers::pi / 70.0}}, 0.0, "shape", w);
+  if (!in_parts) return w;
+  std::vector<RestPiece> pieces;
+  for (int i = 0; i < 7; ++i)
+    pieces.push_back(
+        {10.0, 0.05, 2.0 * std::numbers::pi * (i / 7.0 + (i % 2)), 2.0 * std::numbers::pi / 70.0});
+  lay_rest_shape(pieces, 0.0, "shape", w);
+  return w;
+}
+
+// Where a section is cut and goes on as it was, there is no ramp: not a bit differs from what its taper says. Breaks when the rounding of two
+// ends that were computed apart counts as a step.
+TEST(MaterialLine, WhereNothingChangesThereIsNoRamp) {
+  const MaterialLine whole(cut(false));
+  const Instrument w = cut(true);
+  ASSERT_EQ(w.sections.size(), 7U);
+  const MaterialLine line(w);
+  for (int i = 0; i < 7000; ++i) {
+    const double arc = 0.005 + 0.01 * i;
+    const auto k = static_cast<std::size_t>(arc / 10.0);
+    const double fraction = (arc - 10.0 * static_cast<double>(k)) / 10.0;
+    ASSERT_EQ(line.flexural_rigidity_n_mm2(arc), Profile(w.sections[k].flexural_rigidity_n_mm2).at(fraction))
+        << arc;
+    const Eigen::Vector2d own = line.rest_curvature_per_mm(arc);
+    const Eigen::Vector2d turning = 2.0 * std::numbers::pi / 70.0 * Eigen::Vector2d(-own.y(), own.x());
+    ASSERT_EQ(line.rest_curvature_slope_per_mm2(arc), turning) << arc;
+    EXPECT_LT((own - whole.rest_curvature_per_mm(arc)).norm(), 1e-15);
+    EXPECT_NEAR(line.flexural_rigidity_n_mm2(arc) / whole.flexural_rigidity_n_mm2(arc), 1.0, 1e-14);
+    EXPECT_NEAR(line.axial_rigidity_n(arc - 0.5, arc + 0.5) / whole.axial_rigidity_n(arc - 0.5, arc + 0.5),
+                1.0, 1e-9);
+  }
+}
+
+// A step in twist leaves bending as it is, to the bit.
+TEST(MaterialLine, ARampOfOneRigidityLeavesTheOthers) {
+  Instrument w = test::uniform_wire(7.0, 6.0, 50.0);
+  w.sections.push_back(w.sections[0]);
+  w.sections[1].torsional_rigidity_n_mm2 = 60.0;
+  const MaterialLine line(w);
+  for (double arc = 48.5; arc < 51.5; arc += 0.01) EXPECT_EQ(line.flexural_rigidity_n_mm2(arc), 7.0) << arc;
+  EXPECT_NEAR(1.0 / line.torsional_rigidity_n_mm2(50.0), 0.5 * (1.0 / 6.0 + 1.0 / 60.0), 1e-15);
 }
 
 // What a point says is what the integrals are of. Breaks when one of the two leaves out a ramp.

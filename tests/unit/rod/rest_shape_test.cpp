@@ -76,6 +76,19 @@ TEST(RestShape, AHelixHasItsRadiusPitchAndHand) {
   }
 }
 
+// Breaks when the turn of a helix is carried on from section to section, beyond the range of an angle.
+TEST(RestShape, AHelixOfManyTurnsGoesOnOverBordersOfSections) {
+  Instrument wire = test::uniform_wire(8.0, 6.0, 150.0);
+  wire.sections.push_back(wire.sections[0]);
+  const RestPiece helix = helix_piece(2.0, 3.0, 18.0);
+  ASSERT_GT(helix.length_mm, 200.0);
+  lay_rest_shape({helix}, 0.0, "shape", wire);
+  const MaterialLine cut(wire);
+  const MaterialLine whole(with_shape({helix}));
+  for (double arc = 140.0; arc < 160.0; arc += 0.1)
+    EXPECT_LT((cut.rest_curvature_per_mm(arc) - whole.rest_curvature_per_mm(arc)).norm(), 1e-12) << arc;
+}
+
 TEST(RestShape, PointsOfACircleGiveItsArc) {
   std::vector<Vector3d> points;
   for (int i = 0; i <= 9; ++i) {

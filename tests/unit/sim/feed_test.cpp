@@ -68,23 +68,56 @@ class Sheathed : public testing::Test {
     return there.energy_mj();
   }
 
+  /// Derivatives of the energy in this state.
+  struct Linearised {
+    double energy_mj = 0.0;
+    math::BandMatrix hessian;
+    std::vector<double> gradient;
+  };
+  Linearised linearised() {
+    Linearised model;
+    model.hessian.resize(problem_.unknowns());
+    model.gradient.assign(direction_.size(), 0.0);
+    model.energy_mj = problem_.linearise(model.hessian, model.gradient);
+    return model;
+  }
+
+  /// Energy over inserted length alone from here on.
+  void feed_only() {
+    std::fill(direction_.begin(), direction_.end(), 0.0);
+    direction_[20] = 1.0;
+  }
+
+  /// What is left of the energy behind its gradient falls with the square of the way, in many states.
+  void expect_gradient_of_everything() {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+      lay(0.25, seed);
+      const Linearised here = linearised();
+      EXPECT_NEAR(here.energy_mj, problem_.energy_mj(), 1e-9 * here.energy_mj);
+      EXPECT_GT(std::abs(here.gradient[20]), 1e-3) << "nothing depends on the feed";
+      test::expect_order(
+          [&](double h) { return energy_at(h) - here.energy_mj - h * test::dot(here.gradient, direction_); },
+          2.0, 1e-12 * here.energy_mj, "seed " + std::to_string(seed), 0.02);
+    }
+  }
+
+  /// In one state, along the feed alone.
+  Linearised expect_second_derivative_of_the_feed() {
+    lay(0.2, 7);
+    feed_only();
+    Linearised here = linearised();
+    test::expect_taylor([&](double h) { return energy_at(h); }, here.gradient[20],
+                        test::quadratic(here.hessian, direction_), here.energy_mj, "feed", 0.05);
+    return here;
+  }
+
   rod::MaterialLine line_;
   ChainProblem problem_;
   std::vector<double> direction_;
 };
 
 TEST_F(Sheathed, GradientOfEverythingTogether) {
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    lay(0.25, seed);
-    math::BandMatrix hessian;
-    hessian.resize(problem_.unknowns());
-    std::vector<double> gradient(direction_.size(), 0.0);
-    const double energy = problem_.linearise(hessian, gradient);
-    EXPECT_NEAR(energy, problem_.energy_mj(), 1e-9 * energy);
-    EXPECT_GT(std::abs(gradient[20]), 1e-3) << "nothing depends on the feed";
-    test::expect_order([&](double h) { return energy_at(h) - energy - h * test::dot(gradient, direction_); },
-                       2.0, 1e-12 * energy, "seed " + std::to_string(seed), 0.02);
-  }
+  expect_gradient_of_everything();
 }
 
 // A wire that is not round, and less so further on: both directions push at the hand in their own measure.
@@ -102,16 +135,8 @@ class FlatSheathed : public Sheathed {
   }
 };
 
-TEST_F(FlatSheathed, GradientOfTheFeed) {
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    lay(0.25, seed);
-    math::BandMatrix hessian;
-    hessian.resize(problem_.unknowns());
-    std::vector<double> gradient(direction_.size(), 0.0);
-    const double energy = problem_.linearise(hessian, gradient);
-    test::expect_order([&](double h) { return energy_at(h) - energy - h * test::dot(gradient, direction_); },
-                       2.0, 1e-12 * energy, "seed " + std::to_string(seed), 0.02);
-  }
+TEST_F(FlatSheathed, GradientOfEverythingTogether) {
+  expect_gradient_of_everything();
 }
 
 class RubbingSheathed : public Sheathed {
@@ -143,37 +168,30 @@ TEST_F(RubbingSheathed, GradientWithContactAtTheEnteringRod) {
     problem_.contact.detect({line_, problem_.material, problem_.shape}, tube, {});
     static_cast<void>(problem_.energy_mj());
     problem_.contact.renew_lagged();
-    std::fill(direction_.begin(), direction_.end(), 0.0);
-    direction_[20] = 1.0;
-    math::BandMatrix hessian;
-    hessian.resize(problem_.unknowns());
-    std::vector<double> gradient(direction_.size(), 0.0);
-    const double energy = problem_.linearise(hessian, gradient);
+    feed_only();
+    const Linearised here = linearised();
     double pressed_n = 0.0;
     for (const contact::Sample& s : problem_.contact.samples())
       if (s.rod == 4 && s.fraction > 0.0) pressed_n += s.normal_n;
     ASSERT_GT(pressed_n, 0.01) << "the entering rod touches nothing";
-    ASSERT_NEAR(energy, problem_.energy_mj(), 1e-12 * energy);
+    ASSERT_NEAR(here.energy_mj, problem_.energy_mj(), 1e-12 * here.energy_mj);
     constexpr double h = 1e-5;
-    EXPECT_NEAR(gradient[20], (energy_at(h) - energy_at(-h)) / (2.0 * h), 1e-5) << "seed " << seed;
+    EXPECT_NEAR(here.gradient[20], (energy_at(h) - energy_at(-h)) / (2.0 * h), 1e-5) << "seed " << seed;
   }
 }
 
 // A trial that is not taken leaves nothing behind. Breaks when the entering rod keeps the length that the last trial gave it.
 TEST_F(Sheathed, ATrialThatIsNotTakenChangesNothing) {
   lay(0.25, 9);
-  math::BandMatrix hessian;
-  hessian.resize(problem_.unknowns());
-  std::vector<double> before(direction_.size(), 0.0);
-  const double energy = problem_.linearise(hessian, before);
-  std::fill(direction_.begin(), direction_.end(), 0.0);
+  const Linearised before = linearised();
+  feed_only();
   direction_[20] = 0.3;
-  EXPECT_GT(std::abs(problem_.try_step(direction_, 1.0) - energy), 1e-6);
-  std::vector<double> after(direction_.size(), 0.0);
-  EXPECT_EQ(problem_.linearise(hessian, after), energy);
-  EXPECT_EQ(after, before);
-  EXPECT_GT(std::abs(problem_.try_step(direction_, 1.0) - energy), 1e-6);
-  EXPECT_NEAR(problem_.energy_mj(), energy, 1e-12 * energy);
+  EXPECT_GT(std::abs(problem_.try_step(direction_, 1.0) - before.energy_mj), 1e-6);
+  const Linearised after = linearised();
+  EXPECT_EQ(after.energy_mj, before.energy_mj);
+  EXPECT_EQ(after.gradient, before.gradient);
+  EXPECT_GT(std::abs(problem_.try_step(direction_, 1.0) - before.energy_mj), 1e-6);
+  EXPECT_NEAR(problem_.energy_mj(), before.energy_mj, 1e-12 * before.energy_mj);
 }
 
 class SheathedUniform : public Sheathed {
@@ -197,31 +215,15 @@ class SheathedAtARamp : public Sheathed {
 
 // Breaks without the slope of the rest curvature in the feed's Hessian.
 TEST_F(SheathedAtARamp, SecondDerivativeOfTheFeed) {
-  lay(0.2, 7);
-  std::fill(direction_.begin(), direction_.end(), 0.0);
-  direction_[20] = 1.0;
-  math::BandMatrix hessian;
-  hessian.resize(problem_.unknowns());
-  std::vector<double> gradient(direction_.size(), 0.0);
-  const double energy = problem_.linearise(hessian, gradient);
-  test::expect_taylor([&](double h) { return energy_at(h); }, gradient[20],
-                      test::quadratic(hessian, direction_), energy, "feed", 0.05);
+  expect_second_derivative_of_the_feed();
 }
 
 // On a uniform wire without a kink nothing is left out of the feed's row.
 TEST_F(SheathedUniform, HessianOfTheFeed) {
-  lay(0.2, 7);
-  std::fill(direction_.begin(), direction_.end(), 0.0);
-  direction_[20] = 1.0;
-  math::BandMatrix hessian;
-  hessian.resize(problem_.unknowns());
-  std::vector<double> gradient(direction_.size(), 0.0);
-  const double energy = problem_.linearise(hessian, gradient);
-  test::expect_taylor([&](double h) { return energy_at(h); }, gradient[20],
-                      test::quadratic(hessian, direction_), energy, "feed", 0.05);
+  const Linearised here = expect_second_derivative_of_the_feed();
   // Its row: what the gradients by all others change by.
   std::vector<double> row(direction_.size());
-  hessian.multiply(direction_, row);
+  here.hessian.multiply(direction_, row);
   const auto gradient_at = [&](double h) {
     ChainProblem there = problem_;
     there.feed.inserted_mm += h;
@@ -240,6 +242,51 @@ TEST_F(SheathedUniform, HessianOfTheFeed) {
     EXPECT_NEAR(row[i], (ahead[i] - behind[i]) / (2.0 * h), 1e-5 * (1.0 + std::abs(row[i])))
         << "unknown " << i;
 }
+
+/// What changes, at once as the sections say, where the wire leaves the sheath: its rest curvature, its rigidities, or the ratio of them.
+enum class Change { rest_curvature, rigidity, ratio };
+
+class SheathedAtABorder : public Sheathed, public testing::WithParamInterface<Change> {
+ protected:
+  SheathedAtABorder() : Sheathed(wire_with_a_border()) {}
+  static rod::Instrument wire_with_a_border() {
+    rod::Instrument wire = test::uniform_wire(8.0, 6.0, kInserted_mm);
+    rod::Section& tip = wire.sections[0];
+    rod::Section shaft = tip;
+    shaft.length_mm = 200.0;
+    switch (GetParam()) {
+      case Change::rest_curvature:
+        tip.rest_curvature_per_mm = 0.08;
+        break;
+      case Change::rigidity:
+        shaft.flexural_rigidity_n_mm2 = 32.0;
+        shaft.torsional_rigidity_n_mm2 = 24.0;
+        shaft.axial_rigidity_n = 4000.0;
+        break;
+      case Change::ratio:
+        tip.flexural_ratio = 0.3;
+        break;
+    }
+    wire.sections.push_back(shaft);
+    return wire;
+  }
+};
+
+// The energy over the inserted length has no kink where the border comes out of the sheath: its slope is the same on both sides. Breaks when the
+// ramps of rod::kRamp_mm are taken out, or are as short as the way looked at; Newton's method then goes to and fro over the border.
+TEST_P(SheathedAtABorder, TheEnergyHasNoKinkInTheInsertedLength) {
+  lay(0.2, 7);
+  feed_only();
+  constexpr double h = 1e-5;
+  const double here = energy_at(0.0);
+  const double slope_before_n = (here - energy_at(-h)) / h;
+  const double slope_behind_n = (energy_at(h) - here) / h;
+  constexpr double kMostStiffness_n_per_mm = 500.0;  // mostly EA over the entering rod, 425
+  EXPECT_NEAR(slope_behind_n, slope_before_n, kMostStiffness_n_per_mm * h);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SheathedAtABorder,
+                         testing::Values(Change::rest_curvature, Change::rigidity, Change::ratio));
 
 }  // namespace
 }  // namespace endowire::sim
