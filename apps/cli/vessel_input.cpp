@@ -94,7 +94,9 @@ void add_vessel_options(CLI::App& command, VesselInput& input) {
           "VESSEL", input.file,
           "surface (STL, PLY, OBJ, VTP, VTU, VTK) or image (NIfTI, MetaImage, NRRD, folder of DICOM files)")
       ->required();
-  command.add_option("--unit", input.unit, "unit of a surface: mm, cm or m; without it the likely one");
+  command.add_option("--unit", input.unit,
+                     "unit of the lengths in the file: mm, cm or m; without it that of an image's header, of "
+                     "a surface the likely one");
   command.add_option("--threshold", input.threshold, "of an image: the lumen is brighter, LOW or LOW:HIGH");
   command.add_option("--label", input.label, "of a label map: the number of the lumen");
   command.add_option("--smooth", input.smooth, "of an image: passes that smooth the surface, 0 for none");

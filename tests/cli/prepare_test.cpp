@@ -70,8 +70,10 @@ TEST(Prepare, RefusesWhatCannotBe) {
   EXPECT_NE(said({"v.stl", "-o", "x.stl", "--smooth", "1000"})
                 .find("--smooth is \"1000\"; must be a whole number, 0 … 200"),
             std::string::npos);
-  EXPECT_NE(said({"v.nii.gz", "-o", "x.stl", "--unit", "mm"}).find("an image volume says its own"),
-            std::string::npos);
+  // In metres, as the user claims, the image would be 24 m wide: its voxels say so before the lumen does.
+  EXPECT_NE(
+      said({"v.nii.gz", "-o", "x.stl", "--unit", "m"}).find("spacing is 1000 x 1000 x 1000 mm; must be"),
+      std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder / "x.stl"));
 }
 
@@ -95,6 +97,29 @@ TEST(Prepare, TellsWhatItDecidedOfAnImage) {
     ASSERT_EQ(branches.size(), 1U);
     EXPECT_NEAR(branches[0]["radius_mm"]["mean"].get<double>(), 5.0, 0.25) << name;
   }
+}
+
+TEST(Prepare, AnImageThatIsWrongAboutItsUnitIsToldAndCorrected) {
+  const TemporaryFolder folder;
+  // The same tube with voxels of a tenth: millimetres in the header, centimetres meant.
+  test::Grid grid;
+  grid.size = {24, 24, 90};
+  grid.step_mm *= 0.1;
+  const io::Volume volume = test::volume_of(grid, [&](const Eigen::Vector3d& p) {
+    return test::from_line_mm(p, {1.23, 1.18, 0}, {0, 0, 1}) < 0.5 ? 2.0 : 0.0;
+  });
+  test::write_text(folder / "v.nii", test::nifti_file(volume));
+  const Outcome as_it_says = run_endowire(folder, {"prepare", "v.nii", "-o", "a.vtp"});
+  ASSERT_EQ(as_it_says.code, 0) << as_it_says.err;
+  EXPECT_NE(as_it_says.out.find("mm, from the image; the lumen is then"), std::string::npos)
+      << as_it_says.out;
+  EXPECT_NE(as_it_says.out.find("which is likelier: if so, unit = \"cm\""), std::string::npos)
+      << as_it_says.out;
+  const Outcome corrected = run_endowire(folder, {"prepare", "v.nii", "-o", "b.vtp", "--unit", "cm"});
+  ASSERT_EQ(corrected.code, 0) << corrected.err;
+  EXPECT_NE(corrected.out.find("cm, as declared\n"), std::string::npos) << corrected.out;
+  EXPECT_NE(corrected.out.find("x 90.0 mm"), std::string::npos) << corrected.out;
+  EXPECT_NE(corrected.out.find("voxels of 1 x 1 x 1 mm"), std::string::npos) << corrected.out;
 }
 
 TEST(Prepare, AnImageIsSimulatedInWithoutPreparation) {

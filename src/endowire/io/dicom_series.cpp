@@ -172,8 +172,14 @@ struct NamedSlice {
   DicomSlice slice;
 };
 
-std::vector<NamedSlice> slices_of(const fs::path& folder) {
-  const std::string label = one_line(folder.string());
+/// What a folder holds.
+struct Folder {
+  std::vector<NamedSlice> slices;  ///< of the series that is meant, or of all
+  std::size_t other_files = 0;     ///< that are no images of DICOM
+  std::size_t other_slices = 0;    ///< of series that are not meant
+};
+
+std::vector<fs::path> files_of(const fs::path& folder, const std::string& label) {
   std::vector<fs::path> files;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
@@ -186,35 +192,60 @@ std::vector<NamedSlice> slices_of(const fs::path& folder) {
   }
   if (error) throw InputError(fmt::format("{}: cannot be read ({})", label, error.message()));
   std::sort(files.begin(), files.end());
-  std::vector<NamedSlice> slices;
+  return files;
+}
+
+/// @param series  that is meant; empty: any
+Folder slices_of(const fs::path& folder, const std::string& series) {
+  const std::string label = one_line(folder.string());
+  Folder found;
   std::int64_t voxels = 0;
-  for (const fs::path& file : files) {
+  for (const fs::path& file : files_of(folder, label)) {
     std::error_code ignored;
-    if (fs::file_size(file, ignored) < preamble_bytes + 4 || ignored) continue;
-    const std::string bytes = read_file(file, max_slice_bytes);
-    if (!is_dicom(bytes)) continue;
     const std::string name = one_line(file.string());
-    slices.push_back({name, parse_dicom(bytes, name)});
-    voxels += slices.back().slice.rows * slices.back().slice.columns;
+    const bool long_enough = fs::file_size(file, ignored) >= dicom_begin_bytes && !ignored;
+    const std::string bytes = long_enough ? read_file(file, max_slice_bytes) : std::string();
+    if (!is_dicom(bytes) || !holds_an_image(bytes, name)) {
+      ++found.other_files;
+      continue;
+    }
+    DicomSlice slice = parse_dicom(bytes, name);
+    if (!series.empty() && slice.series != series) {
+      ++found.other_slices;
+      continue;
+    }
+    voxels += slice.rows * slice.columns;
+    found.slices.push_back({name, std::move(slice)});
     if (voxels > max_voxels)
       throw InputError(
           fmt::format("{}: holds more than {} voxels; must be a series of fewer", label, max_voxels));
   }
-  if (slices.empty())
+  if (found.slices.empty())
     throw InputError(
         label + ": is a folder without DICOM files; must be a file, or a folder that holds a DICOM series");
-  return slices;
+  return found;
 }
 
 void check_one_series(const std::vector<NamedSlice>& slices, const std::string& label) {
-  std::map<std::string, std::size_t> series;
-  for (const NamedSlice& named : slices) ++series[named.slice.series];
-  if (series.size() == 1) return;
+  struct Series {
+    std::size_t count = 0;
+    std::string file;
+  };
+  std::map<std::string, Series> all;
+  for (const NamedSlice& named : slices) {
+    Series& series = all[named.slice.series];
+    if (series.count++ == 0) series.file = named.file;
+  }
+  if (all.size() == 1) return;
   std::string list;
-  for (const auto& [uid, count] : series)
-    list += fmt::format("{}{} ({} slices)", list.empty() ? "" : ", ", one_line(uid), count);
-  throw InputError(fmt::format("{}: holds {} series, {}; must be one: put the others elsewhere", label,
-                               series.size(), list.substr(0, 400)));
+  std::string files;
+  for (const auto& [uid, series] : all) {
+    list += fmt::format("{}{} ({} slices)", list.empty() ? "" : ", ", one_line(uid), series.count);
+    files += (files.empty() ? "" : ", ") + series.file;
+  }
+  throw InputError(
+      fmt::format("{}: holds {} series, {}; must be one: name a file of the one meant, such as {}", label,
+                  all.size(), list.substr(0, 400), files.substr(0, 400)));
 }
 
 void check_alike(const std::vector<NamedSlice>& slices) {
@@ -241,10 +272,28 @@ void check_gaps(const std::vector<NamedSlice>& slices, const Eigen::Vector3d& no
   }
 }
 
+/// Slices lie behind each other, a tilted gantry's on a slant, but none aside.
+void check_line(const std::vector<NamedSlice>& slices, double spacing_mm) {
+  const Eigen::Vector3d first = slices.front().slice.position_mm;
+  const Eigen::Vector3d step =
+      (slices.back().slice.position_mm - first) / static_cast<double>(slices.size() - 1);
+  for (std::size_t k = 0; k < slices.size(); ++k) {
+    const double aside = (slices[k].slice.position_mm - first - static_cast<double>(k) * step).norm();
+    if (aside > 0.5 * spacing_mm)
+      throw InputError(fmt::format("{}: lies {:.3f} mm beside the line of the series; must be <= {:.3f} mm",
+                                   slices[k].file, aside, 0.5 * spacing_mm));
+  }
+}
+
 }  // namespace
 
 bool is_dicom(std::string_view file) {
-  return file.size() > preamble_bytes + 4 && file.substr(preamble_bytes, 4) == "DICM";
+  return file.size() >= dicom_begin_bytes && file.substr(preamble_bytes, 4) == "DICM";
+}
+
+bool holds_an_image(std::string_view file, const std::string& file_label) {
+  const Elements elements(file, file_label);
+  return elements.has(pixel_data) || elements.has(rows_tag);
 }
 
 DicomSlice parse_dicom(std::string_view file, const std::string& file_label) {
@@ -279,9 +328,15 @@ DicomSlice parse_dicom(std::string_view file, const std::string& file_label) {
   return slice;
 }
 
-Volume read_dicom_series(const fs::path& folder) {
+Volume read_dicom_series(const fs::path& folder, const fs::path& file, std::optional<double> unit_mm) {
   const std::string label = one_line(folder.string());
-  std::vector<NamedSlice> slices = slices_of(folder);
+  std::string series;
+  if (!file.empty()) {
+    const std::string name = one_line(file.string());
+    series = parse_dicom(read_file(file, max_slice_bytes), name).series;
+  }
+  Folder found = slices_of(folder, series);
+  std::vector<NamedSlice>& slices = found.slices;
   check_one_series(slices, label);
   check_alike(slices);
   if (slices.size() < 2) throw InputError(label + ": holds one slice; must be a series of two and more");
@@ -295,6 +350,7 @@ Volume read_dicom_series(const fs::path& folder) {
   std::nth_element(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2), gaps.end());
   const double spacing_mm = gaps[gaps.size() / 2];
   check_gaps(slices, normal, spacing_mm);
+  check_line(slices, spacing_mm);
 
   Volume volume;
   const DicomSlice& low = slices.front().slice;
@@ -305,6 +361,10 @@ Volume read_dicom_series(const fs::path& folder) {
   volume.step_mm.col(2) =
       (slices.back().slice.position_mm - low.position_mm) / static_cast<double>(slices.size() - 1);
   volume.frame = fmt::format("DICOM, {} slices, LPS in the files", slices.size());
+  if (found.other_slices > 0)
+    volume.frame += fmt::format(", {} slices of other series left out", found.other_slices);
+  if (found.other_files > 0) volume.frame += fmt::format(", {} other files passed over", found.other_files);
+  apply_unit(volume, 1.0, unit_mm);
   check_grid(volume, label);
   volume.values.reserve(volume.count());
   volume.whole_numbers = true;

@@ -21,12 +21,14 @@ namespace {
 /// voxel to voxel: organs are many voxels wide.
 constexpr std::size_t max_labels = 256;
 constexpr double max_changes = 0.15;
+constexpr std::size_t max_labels_said = 65536;
 /// With all pieces kept, those below this part of the largest are specks still.
 constexpr double speck_part = 1e-3;
 constexpr std::size_t min_lumen_voxels = 8;
 
 /// Voxels of each label but 0; empty for a grey-level image.
-std::map<std::int64_t, std::size_t> labels_of(const Volume& volume) {
+/// @param said  that it is a label map: then only the values count
+std::map<std::int64_t, std::size_t> labels_of(const Volume& volume, bool said) {
   std::map<std::int64_t, std::size_t> labels;
   if (!volume.whole_numbers) return labels;
   float last = std::numeric_limits<float>::quiet_NaN();
@@ -38,12 +40,12 @@ std::map<std::int64_t, std::size_t> labels_of(const Volume& volume) {
       last = value;
       ++changes;
       count = &labels[static_cast<std::int64_t>(value)];
-      if (labels.size() > max_labels) return {};
+      if (labels.size() > (said ? max_labels_said : max_labels)) return {};
     }
     ++*count;
   }
-  if (!labels.contains(0) || static_cast<double>(changes) > max_changes * static_cast<double>(volume.count()))
-    return {};
+  const bool busy = static_cast<double>(changes) > max_changes * static_cast<double>(volume.count());
+  if (!said && (!labels.contains(0) || busy)) return {};
   labels.erase(0);
   return labels;
 }
@@ -196,8 +198,9 @@ LumenImage lumen_of(Volume volume, const VolumeOptions& options, const std::stri
   report.size = volume.size;
   report.spacing_mm = volume.spacing_mm();
   report.frame = volume.frame;
-  const std::map<std::int64_t, std::size_t> labels =
-      options.threshold ? std::map<std::int64_t, std::size_t>() : labels_of(volume);
+  const std::map<std::int64_t, std::size_t> labels = options.threshold
+                                                         ? std::map<std::int64_t, std::size_t>()
+                                                         : labels_of(volume, options.label.has_value());
   if (labels.empty()) {
     set_threshold(volume, options, report, file_label);
   } else {

@@ -74,7 +74,7 @@ void read_grid(const TextHeader& header, Volume& volume) {
 }  // namespace
 
 Volume parse_meta_image(std::string_view file, const std::string& file_label,
-                        const std::filesystem::path& folder) {
+                        const std::filesystem::path& folder, std::optional<double> unit_mm) {
   TextHeader header(file_label);
   vessel::Tokens lines(file);
   for (std::size_t n = 0; n < max_header_lines && !lines.at_end() && !header.has("ElementDataFile"); ++n) {
@@ -87,6 +87,7 @@ Volume parse_meta_image(std::string_view file, const std::string& file_label,
   }
   Volume volume;
   read_grid(header, volume);
+  apply_unit(volume, millimetres_in(header.text("DistanceUnits")), unit_mm);
   check_grid(volume, file_label);
   const VoxelFormat format = format_of(header);
   const std::string where = header.text("ElementDataFile");

@@ -71,14 +71,16 @@ VoxelType type_of(std::int64_t code, const std::string& file) {
                   file, code));
 }
 
-double millimetres(std::int64_t units) {
+std::optional<double> millimetres(std::int64_t units) {
   switch (units & 7) {
     case 1:
       return 1000.0;
+    case 2:
+      return 1.0;
     case 3:
       return 0.001;
     default:
-      return 1.0;
+      return {};
   }
 }
 
@@ -113,7 +115,7 @@ void read_axes(const Header& header, const Layout& at, Volume& volume) {
 
 }  // namespace
 
-Volume parse_nifti(std::string_view file, const std::string& file_label) {
+Volume parse_nifti(std::string_view file, const std::string& file_label, std::optional<double> unit_mm) {
   const bool packed = is_gzip(file);
   std::string head =
       packed ? inflate(file, header_1_bytes, file_label) : std::string(file.substr(0, header_2_bytes));
@@ -147,9 +149,9 @@ Volume parse_nifti(std::string_view file, const std::string& file_label) {
   for (std::size_t k = 0; k < 3; ++k) volume.size[k] = dim(k + 1);
   read_axes(header, at, volume);
   const Eigen::Vector3d lps_of_ras(-1.0, -1.0, 1.0);
-  const double unit = millimetres(header.integer(at.units, at.units_bytes));
-  volume.step_mm = unit * (lps_of_ras.asDiagonal() * volume.step_mm).eval();
-  volume.origin_mm = unit * lps_of_ras.cwiseProduct(volume.origin_mm);
+  volume.step_mm = (lps_of_ras.asDiagonal() * volume.step_mm).eval();
+  volume.origin_mm = lps_of_ras.cwiseProduct(volume.origin_mm);
+  apply_unit(volume, millimetres(header.integer(at.units, at.units_bytes)), unit_mm);
   volume.frame = "NIfTI (" + volume.frame + "), RAS in the file";
   check_grid(volume, file_label);
   VoxelFormat format;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,8 +13,10 @@ namespace endowire::io {
 /// Its axes are those of the sform, else of the qform, else of the spacing alone; NIfTI's frame is RAS and is turned into
 /// LPS. The scale of values and the unit of length of the header are applied.
 /// Source  https://nifti.nimh.nih.gov/nifti-1 and nifti-2 (headers nifti1.h, nifti2.h).
+/// @param unit_mm  of length, when the header is wrong about it
 /// @throws base::InputError for what is no such file, is damaged, has more than three dimensions, or a type of number
 ///                          that is no scalar
-[[nodiscard]] Volume parse_nifti(std::string_view file, const std::string& file_label);
+[[nodiscard]] Volume parse_nifti(std::string_view file, const std::string& file_label,
+                                 std::optional<double> unit_mm = {});
 
 }  // namespace endowire::io

@@ -77,6 +77,23 @@ void read_grid(const TextHeader& header, Volume& volume) {
                                      : "NRRD without a frame, taken to be LPS";
 }
 
+/// The unit of length, in quotes for each axis: one for all. None where it is not said, or no length ("voxel", "???").
+std::optional<double> unit_of(const TextHeader& header) {
+  const std::string key = header.has("space units") ? "space units" : "units";
+  const std::string text = header.text(key);
+  std::optional<double> unit;
+  std::size_t axes = 0;
+  for (std::size_t begin = text.find('"'); begin != std::string::npos; ++axes) {
+    const std::size_t end = text.find('"', begin + 1);
+    if (end == std::string::npos) header.refuse(key, "names of units in quotes");
+    const std::optional<double> axis = millimetres_in(trimmed(text.substr(begin + 1, end - begin - 1)));
+    if (axes > 0 && axis != unit) header.refuse(key, "the same unit of length for all axes");
+    unit = axis;
+    begin = text.find('"', end + 1);
+  }
+  return unit;
+}
+
 /// Behind what `line skip` and `byte skip` pass over.
 std::string_view skipped(const TextHeader& header, std::string_view data, std::size_t needed, bool raw) {
   if (header.has("line skip")) {
@@ -95,7 +112,8 @@ std::string_view skipped(const TextHeader& header, std::string_view data, std::s
 
 }  // namespace
 
-Volume parse_nrrd(std::string_view file, const std::string& file_label, const std::filesystem::path& folder) {
+Volume parse_nrrd(std::string_view file, const std::string& file_label, const std::filesystem::path& folder,
+                  std::optional<double> unit_mm) {
   vessel::Tokens lines(file);
   if (!lines.line().starts_with("NRRD000"))
     throw InputError(file_label + ": does not begin with NRRD000; must be an NRRD file");
@@ -109,6 +127,7 @@ Volume parse_nrrd(std::string_view file, const std::string& file_label, const st
   }
   Volume volume;
   read_grid(header, volume);
+  apply_unit(volume, unit_of(header), unit_mm);
   check_grid(volume, file_label);
   const VoxelFormat format = format_of(header);
   const std::string encoding = header.text("encoding");

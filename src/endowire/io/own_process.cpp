@@ -1,12 +1,17 @@
 #include "endowire/io/own_process.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
+#include <cstdint>
 #include <fstream>
 #include <new>
 
@@ -44,18 +49,31 @@ void write_all(int to, const std::string& bytes) {
   }
 }
 
-std::string read_all(int from) {
-  std::string bytes;
+enum class End { closed, too_late, too_long };
+
+/// What comes through a pipe until its other end is closed.
+End read_all(int from, std::chrono::steady_clock::time_point until, std::size_t most, std::string& bytes) {
   std::array<char, 65536> buffer{};
   for (;;) {
+    const auto left =
+        std::chrono::ceil<std::chrono::milliseconds>(until - std::chrono::steady_clock::now()).count();
+    if (left <= 0) return End::too_late;
+    pollfd end{from, POLLIN, 0};
+    constexpr std::int64_t longest_ms = 1'000'000;
+    const int ready = ::poll(&end, 1, static_cast<int>(std::min<std::int64_t>(left, longest_ms)));
+    if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
     const ssize_t count = ::read(from, buffer.data(), buffer.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return bytes;
+    if (count <= 0) return End::closed;
+    if (bytes.size() + static_cast<std::size_t>(count) > most) return End::too_long;
     bytes.append(buffer.data(), static_cast<std::size_t>(count));
   }
 }
 
-[[noreturn]] void be_child(const std::function<std::string()>& work, std::size_t more_bytes, int answer) {
+/// Ends the process, whatever happens in it: an exception that left it would run a second copy of the caller. One thrown
+/// while an answer is put together ends it by std::terminate.
+[[noreturn]] void be_child(const std::function<std::string()>& work, std::size_t more_bytes,
+                           int answer) noexcept {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, cpu_seconds);
   limit(RLIMIT_AS, own_bytes() + more_bytes);
@@ -70,6 +88,8 @@ std::string read_all(int from) {
     result = bad_input + std::string(error.what());
   } catch (const std::bad_alloc&) {
     result = no_memory;
+  } catch (...) {
+    ::_exit(1);
   }
   write_all(answer, result);
   ::_exit(0);  // without the destructors of what is the parent's
@@ -78,7 +98,8 @@ std::string read_all(int from) {
 }  // namespace
 
 std::string in_own_process(const std::function<std::string()>& work, std::size_t more_bytes,
-                           const std::string& label) {
+                           const std::string& label, std::chrono::milliseconds time_limit) {
+  const auto until = std::chrono::steady_clock::now() + time_limit;
   std::array<int, 2> ends{};
   if (::pipe(ends.data()) != 0) throw InputError(label + ": cannot be read: no pipe is left");
   const pid_t child = ::fork();
@@ -88,12 +109,19 @@ std::string in_own_process(const std::function<std::string()>& work, std::size_t
   }
   ::close(ends[1]);
   std::string answer;
-  if (child > 0) answer = read_all(ends[0]);
+  End end = End::closed;
+  if (child > 0) end = read_all(ends[0], until, more_bytes, answer);
   ::close(ends[0]);
+  if (child > 0 && end != End::closed) ::kill(child, SIGKILL);
   int status = 0;
   while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (child < 0) throw InputError(label + ": cannot be read: no process can be started");
+  if (end == End::too_late)
+    throw InputError(fmt::format("{}: takes more than {:.3g} s to read; must be a smaller surface", label,
+                                 std::chrono::duration<double>(time_limit).count()));
+  if (end == End::too_long)
+    throw InputError(label + ": is damaged: it gives more data than its length allows");
   if (answer.empty() || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw InputError(label + ": is damaged: its reader broke off");
   const char kind = answer[0];

@@ -27,14 +27,24 @@ std::span<const std::byte> bytes_of(const std::string& text) {
 
 void read_volume_into(VesselMesh& mesh, const fs::path& path, std::optional<vessel::LengthUnit> unit,
                       const VolumeOptions& options) {
-  if (unit)
-    throw base::InputError(mesh.source + ": unit is " + std::string(vessel::name_of(*unit)) +
-                           "; must be left out: an image volume says its own");
   mesh.content_hash = vessel_content_hash(path);
+  Volume volume =
+      read_volume(path, unit ? std::optional<double>(vessel::millimetres_in(*unit)) : std::nullopt);
+  const double unit_mm = volume.unit_mm;
   VolumeReport report;
-  const vessel::TriangleMesh surface = lumen_surface(read_volume(path), options, mesh.source, report);
+  const vessel::TriangleMesh surface = lumen_surface(std::move(volume), options, mesh.source, report);
   mesh.volume = report;
-  mesh.unit_text = "mm, from the image";
+  // Held against what vessels are in the unit of the file, so that the message names the one to give.
+  vessel::LengthUnit named = vessel::LengthUnit::millimetre;
+  for (const vessel::LengthUnit other : {vessel::LengthUnit::centimetre, vessel::LengthUnit::metre})
+    if (unit_mm == vessel::millimetres_in(other)) named = other;
+  vessel::TriangleMesh in_file = surface;
+  for (Eigen::Vector3d& v : in_file.vertices_mm) v /= vessel::millimetres_in(named);
+  const vessel::UnitChoice choice = vessel::choose_unit(in_file, named, mesh.source);
+  mesh.unit = named;
+  mesh.unit_text = unit_mm == 0.001 ? "um" : std::string(vessel::name_of(named));
+  mesh.unit_text += unit ? ", as declared" : ", from the image";
+  mesh.unit_text += choice.likelier_text();
   mesh.repaired = vessel::repair(surface, mesh.source);
 }
 
@@ -66,9 +76,11 @@ VesselMesh read_vessel_file(const fs::path& path, std::optional<vessel::LengthUn
 
 std::uint64_t vessel_content_hash(const fs::path& path) {
   std::error_code error;
-  if (!fs::is_directory(path, error)) return content_hash(read_file(path, max_mesh_bytes));
+  fs::path folder = path;
+  if (names_a_dicom_file(path)) folder = path.parent_path().empty() ? "." : path.parent_path();
+  if (!fs::is_directory(folder, error)) return content_hash(read_file(path, max_mesh_bytes));
   std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(path, error))
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
     if (std::error_code ignored; entry.is_regular_file(ignored) && entry.file_size(ignored) > 0)
       files.push_back(entry.path());
   std::sort(files.begin(), files.end());

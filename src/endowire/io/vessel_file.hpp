@@ -33,14 +33,15 @@ struct VesselMesh {
 inline constexpr std::uintmax_t max_mesh_bytes = std::uintmax_t{2} << 30;  // 43 million triangles
 
 /// Reads a surface of at most max_mesh_bytes (parse_surface) or an image volume (read_volume), and repairs it.
-/// @param unit     of a surface; none: inferred. Image volumes say theirs.
+/// @param unit     of the lengths in the file; none: of a surface inferred, of an image volume as its header says
 /// @param options  of an image volume
 /// @throws base::InputError one line that names the file and what is wrong with it.
 [[nodiscard]] VesselMesh read_vessel_file(const std::filesystem::path& path,
                                           std::optional<vessel::LengthUnit> unit = {},
                                           const VolumeOptions& options = {});
 
-/// Hash of what a vessel file holds; of a folder, of all its files in the order of their names.
+/// Hash of what a vessel file holds; of a folder, or of the folder of a DICOM file, of all its files in the order of their
+/// names.
 [[nodiscard]] std::uint64_t vessel_content_hash(const std::filesystem::path& path);
 
 /// Whether the triangles that are used are those of a file that the crossing judge can read: an STL of which nothing was

@@ -84,6 +84,30 @@ std::size_t bytes_of(VoxelType type) {
   return 8;
 }
 
+void apply_unit(Volume& volume, std::optional<double> header_mm, std::optional<double> given_mm) {
+  volume.unit_mm = given_mm ? *given_mm : header_mm.value_or(1.0);
+  volume.step_mm *= volume.unit_mm;
+  volume.origin_mm *= volume.unit_mm;
+}
+
+std::optional<double> millimetres_in(std::string_view name) {
+  struct Unit {
+    std::string_view names;  // between bars
+    double mm;
+  };
+  constexpr Unit units[] = {{"|um|µm|μm|micron|microns|micrometer|micrometers|micrometre|micrometres|", 1e-3},
+                            {"|mm|millimeter|millimeters|millimetre|millimetres|", 1.0},
+                            {"|cm|centimeter|centimeters|centimetre|centimetres|", 10.0},
+                            {"|m|meter|meters|metre|metres|", 1000.0}};
+  std::string wanted = "|";
+  for (const char c : name) wanted += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  wanted += '|';
+  if (name.empty() || name.find('|') != std::string_view::npos) return {};
+  for (const Unit& unit : units)
+    if (unit.names.find(wanted) != std::string_view::npos) return unit.mm;
+  return {};
+}
+
 void check_grid(const Volume& volume, const std::string& file_label) {
   std::int64_t count = 1;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -112,16 +136,16 @@ void decode_voxels(Volume& volume, std::string_view bytes, const VoxelFormat& fo
                                  bytes.size(), needed, volume.size[0], volume.size[1], volume.size[2]));
   volume.values.resize(volume.count());
   decode_all(volume.values, bytes, format);
+  volume.whole_numbers = true;
   for (std::size_t i = 0; i < volume.values.size(); ++i) {
+    // Segmentations are stored as real numbers too; what matters is what they say.
+    if (volume.values[i] != std::floor(volume.values[i])) volume.whole_numbers = false;
     if (std::isfinite(volume.values[i])) continue;
     const auto n = static_cast<std::size_t>(volume.size[0]);
     const auto m = static_cast<std::size_t>(volume.size[1]);
     throw InputError(fmt::format("{}: voxel ({}, {}, {}) is {}; must be a finite number", file_label, i % n,
                                  i / n % m, i / (n * m), volume.values[i]));
   }
-  volume.whole_numbers = format.type != VoxelType::float32 && format.type != VoxelType::float64 &&
-                         format.slope == std::floor(format.slope) &&
-                         format.intercept == std::floor(format.intercept);
 }
 
 }  // namespace endowire::io

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,7 +18,8 @@ struct Volume {
   std::vector<float> values;                              ///< i runs fastest
   Eigen::Matrix3d step_mm = Eigen::Matrix3d::Identity();  ///< columns: from a voxel to the next along i, j, k
   Eigen::Vector3d origin_mm = Eigen::Vector3d::Zero();    ///< centre of voxel (0, 0, 0)
-  bool whole_numbers = false;                             ///< stored as integers, without a scale
+  bool whole_numbers = false;                             ///< all values are, however they are stored
+  double unit_mm = 1.0;                                   ///< of the lengths in the file
   std::string frame;                                      ///< what the file says of its axes, for people
 
   [[nodiscard]] std::size_t count() const {
@@ -52,6 +54,14 @@ struct VoxelFormat {
 };
 
 [[nodiscard]] std::size_t bytes_of(VoxelType type);
+
+/// Turns the lengths of a header, as they stand there, into millimetres.
+/// @param header_mm  a unit of length as the header says it; none: it does not, millimetres are taken
+/// @param given_mm   as the user says it, which goes before
+void apply_unit(Volume& volume, std::optional<double> header_mm, std::optional<double> given_mm);
+
+/// Millimetres in a unit of length that a header names: um, micron, mm, millimeter, cm, m and the like; none: no such name.
+[[nodiscard]] std::optional<double> millimetres_in(std::string_view name);
 
 /// Holds size and axes against what is possible, before anything is allocated after them.
 /// @throws base::InputError for a size below 2 or beyond max_voxels, or axes that span no volume

@@ -10,6 +10,11 @@
 #include <vtkPointData.h>
 #include <vtkWindowedSincPolyDataFilter.h>
 
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
 #include "endowire/io/decimate.hpp"
 #include "endowire/io/vtk_poly_data.hpp"
 #endif
@@ -65,6 +70,40 @@ void smooth(vtkPolyData& surface, int passes) {
   surface.ShallowCopy(filter->GetOutput());
 }
 
+/// A point that lies where the image ends, and in which direction it does.
+struct OnBorder {
+  vtkIdType point;
+  int axis;
+  double at_mm;
+};
+
+/// Half a voxel outside the image's outermost voxels, where the surface of what goes on behind the border was closed.
+std::vector<OnBorder> on_border(vtkPolyData& surface, const VolumeReport& report,
+                                const Eigen::Vector3d& spacing_mm) {
+  constexpr double rounding = 1e-3;  // of a voxel: values are single precision
+  std::vector<OnBorder> border;
+  for (vtkIdType p = 0; p < surface.GetNumberOfPoints(); ++p) {
+    const Eigen::Vector3d place(surface.GetPoint(p));
+    for (int axis = 0; axis < 3; ++axis) {
+      const double voxel = place[axis] / spacing_mm[axis];
+      const double last = static_cast<double>(report.size[static_cast<std::size_t>(axis)]) - 0.5;
+      if (std::abs(voxel + 0.5) < rounding || std::abs(voxel - last) < rounding)
+        border.push_back({p, axis, place[axis]});
+    }
+  }
+  return border;
+}
+
+/// Smoothing would make domes of the flat ends at the border, and let their rims sink in.
+void put_back(vtkPolyData& surface, const std::vector<OnBorder>& border) {
+  for (const OnBorder& on : border) {
+    std::array<double, 3> place{};
+    surface.GetPoint(on.point, place.data());
+    place[static_cast<std::size_t>(on.axis)] = on.at_mm;
+    surface.GetPoints()->SetPoint(on.point, place.data());
+  }
+}
+
 }  // namespace
 
 vessel::TriangleMesh lumen_surface(Volume volume, const VolumeOptions& options, const std::string& file_label,
@@ -77,7 +116,11 @@ vessel::TriangleMesh lumen_surface(Volume volume, const VolumeOptions& options, 
   report.smoothing_passes =
       options.smooth.value_or(report.label_map ? passes_of_labels : passes_of_grey_levels);
   const vtkNew<vtkPolyData> surface = flying_edges(image, spacing);
-  if (report.smoothing_passes > 0) smooth(*surface, report.smoothing_passes);
+  if (report.smoothing_passes > 0) {
+    const std::vector<OnBorder> border = on_border(*surface, report, spacing);
+    smooth(*surface, report.smoothing_passes);
+    put_back(*surface, border);
+  }
   vessel::TriangleMesh mesh = from_vtk(*surface);
   report.surface_triangles_before = mesh.triangles.size();
   if (mesh.triangles.size() > max_triangles)
@@ -85,6 +128,9 @@ vessel::TriangleMesh lumen_surface(Volume volume, const VolumeOptions& options, 
       mesh = std::move(small);
   report.surface_triangles = mesh.triangles.size();
   for (Eigen::Vector3d& v : mesh.vertices_mm) v = (origin + directions * v).eval();
+  // The axes of many images are left-handed: placing the surface turned it inside out.
+  if (directions.determinant() < 0.0)
+    for (std::array<std::int32_t, 3>& t : mesh.triangles) std::swap(t[1], t[2]);
   return mesh;
 }
 

@@ -19,11 +19,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <string_view>
 
 #include "endowire/io/file.hpp"
+#include "endowire/io/mesh_bytes.hpp"
 #include "endowire/io/own_process.hpp"
 #include "endowire/io/vtk_poly_data.hpp"
 #include "endowire/vessel/text_tokens.hpp"
@@ -183,35 +183,13 @@ vessel::TriangleMesh triangles_of(vtkDataSet* data, const std::string& said, con
   return mesh;
 }
 
-/// The mesh as bytes, from one process to another.
-std::string packed(const vessel::TriangleMesh& mesh) {
-  const std::uint64_t vertices = mesh.vertices_mm.size();
-  std::string bytes(reinterpret_cast<const char*>(&vertices), sizeof vertices);
-  bytes.append(reinterpret_cast<const char*>(mesh.vertices_mm.data()), vertices * sizeof(Eigen::Vector3d));
-  bytes.append(reinterpret_cast<const char*>(mesh.triangles.data()),
-               mesh.triangles.size() * sizeof mesh.triangles[0]);
-  return bytes;
-}
-
-vessel::TriangleMesh unpacked(const std::string& bytes) {
-  vessel::TriangleMesh mesh;
-  std::uint64_t vertices = 0;
-  std::memcpy(&vertices, bytes.data(), sizeof vertices);
-  mesh.vertices_mm.resize(vertices);
-  const std::size_t corner_bytes = vertices * sizeof(Eigen::Vector3d);
-  std::memcpy(static_cast<void*>(mesh.vertices_mm.data()), bytes.data() + sizeof vertices, corner_bytes);
-  mesh.triangles.resize((bytes.size() - sizeof vertices - corner_bytes) / sizeof mesh.triangles[0]);
-  std::memcpy(mesh.triangles.data(), bytes.data() + sizeof vertices + corner_bytes,
-              mesh.triangles.size() * sizeof mesh.triangles[0]);
-  return mesh;
-}
-
 /// VTK's readers crash on some damaged files: they read in a process of their own.
 template <class Read>
 vessel::TriangleMesh alone(std::size_t file_bytes, const std::string& file, Read read) {
   constexpr std::size_t spare = std::size_t{512} << 20;
   constexpr std::size_t copies = 64;  // of the file, at most, that VTK holds of its content in its own types
-  return unpacked(in_own_process([&] { return packed(read()); }, spare + copies * file_bytes, file));
+  return unpack_mesh(in_own_process([&] { return pack_mesh(read()); }, spare + copies * file_bytes, file),
+                     file);
 }
 
 template <class Reader>

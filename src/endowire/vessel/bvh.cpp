@@ -155,32 +155,38 @@ NearestPoint TriangleBvh::nearest(const Vector3d& p, double within_mm, double en
   return best;
 }
 
-void TriangleBvh::collect(const Vector3d& centre, double radius_mm, std::vector<Candidate>& out) const {
-  out.clear();
+template <class Enters, class Visit>
+void TriangleBvh::walk(const Enters& enters, const Visit& visit) const {
   if (nodes_.empty()) return;
-  const double radius2 = radius_mm * radius_mm;
   std::array<std::int32_t, stack_size> stack;
   std::size_t top = 0;
   stack[top++] = 0;
   while (top > 0) {
     const std::int32_t at = stack[--top];
     const Node& node = nodes_[static_cast<std::size_t>(at)];
-    if (box_distance2(centre, node.low, node.high) > radius2) continue;
+    if (!enters(node)) continue;
     if (node.count == 0) {
       stack[top++] = node.first;
       stack[top++] = at + 1;
       continue;
     }
-    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-      const std::int32_t t = order_[static_cast<std::size_t>(i)];
-      const auto index = static_cast<std::size_t>(t);
-      Vector3d q;
-      std::uint8_t feature = 0;
-      const double d2 = nearest_on_triangle(centre, mesh_.corner(index, 0), mesh_.corner(index, 1),
-                                            mesh_.corner(index, 2), q, feature);
-      if (d2 <= radius2) out.push_back({std::sqrt(d2), t});
-    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i)
+      visit(order_[static_cast<std::size_t>(i)]);
   }
+}
+
+void TriangleBvh::collect(const Vector3d& centre, double radius_mm, std::vector<Candidate>& out) const {
+  out.clear();
+  const double radius2 = radius_mm * radius_mm;
+  walk([&](const Node& node) { return box_distance2(centre, node.low, node.high) <= radius2; },
+       [&](std::int32_t t) {
+         const auto index = static_cast<std::size_t>(t);
+         Vector3d q;
+         std::uint8_t feature = 0;
+         const double d2 = nearest_on_triangle(centre, mesh_.corner(index, 0), mesh_.corner(index, 1),
+                                               mesh_.corner(index, 2), q, feature);
+         if (d2 <= radius2) out.push_back({std::sqrt(d2), t});
+       });
   std::sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) {
     return a.distance_mm < b.distance_mm || (a.distance_mm == b.distance_mm && a.triangle < b.triangle);
   });
@@ -188,32 +194,17 @@ void TriangleBvh::collect(const Vector3d& centre, double radius_mm, std::vector<
 
 void TriangleBvh::touching(const Eigen::AlignedBox3d& box, std::vector<std::int32_t>& out) const {
   out.clear();
-  if (nodes_.empty()) return;
-  std::array<std::int32_t, stack_size> stack;
-  std::size_t top = 0;
-  stack[top++] = 0;
-  while (top > 0) {
-    const std::int32_t at = stack[--top];
-    const Node& node = nodes_[static_cast<std::size_t>(at)];
-    if (!box.intersects(Eigen::AlignedBox3d(node.low, node.high))) continue;
-    if (node.count == 0) {
-      stack[top++] = node.first;
-      stack[top++] = at + 1;
-      continue;
-    }
-    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-      const std::int32_t t = order_[static_cast<std::size_t>(i)];
-      Eigen::AlignedBox3d own;
-      for (std::size_t k = 0; k < 3; ++k) own.extend(mesh_.corner(static_cast<std::size_t>(t), k));
-      if (box.intersects(own)) out.push_back(t);
-    }
-  }
+  walk([&](const Node& node) { return box.intersects(Eigen::AlignedBox3d(node.low, node.high)); },
+       [&](std::int32_t t) {
+         Eigen::AlignedBox3d own;
+         for (std::size_t k = 0; k < 3; ++k) own.extend(mesh_.corner(static_cast<std::size_t>(t), k));
+         if (box.intersects(own)) out.push_back(t);
+       });
 }
 
 TriangleBvh::Hit TriangleBvh::cast(const Vector3d& origin, const Vector3d& direction, double from_mm,
                                    double to_mm) const {
   Hit hit;
-  if (nodes_.empty()) return hit;
   const Vector3d inverse = direction.cwiseInverse();
   double nearest = to_mm;
   const auto enters = [&](const Node& node) {
@@ -231,39 +222,26 @@ TriangleBvh::Hit TriangleBvh::cast(const Vector3d& origin, const Vector3d& direc
     }
     return near <= far;
   };
-  std::array<std::int32_t, stack_size> stack;
-  std::size_t top = 0;
-  stack[top++] = 0;
-  while (top > 0) {
-    const std::int32_t at = stack[--top];
-    const Node& node = nodes_[static_cast<std::size_t>(at)];
-    if (!enters(node)) continue;
-    if (node.count == 0) {
-      stack[top++] = node.first;
-      stack[top++] = at + 1;
-      continue;
-    }
-    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-      const std::int32_t t = order_[static_cast<std::size_t>(i)];
-      const auto index = static_cast<std::size_t>(t);
-      // Möller & Trumbore 1997
-      const Vector3d e1 = mesh_.corner(index, 1) - mesh_.corner(index, 0);
-      const Vector3d e2 = mesh_.corner(index, 2) - mesh_.corner(index, 0);
-      const Vector3d h = direction.cross(e2);
-      const double determinant = e1.dot(h);
-      if (determinant == 0.0) continue;
-      const Vector3d s = (origin - mesh_.corner(index, 0)) / determinant;
-      const double u = s.dot(h);
-      const Vector3d q = s.cross(e1);
-      const double v = direction.dot(q);
-      if (u < 0.0 || v < 0.0 || u + v > 1.0) continue;
-      const double along = e2.dot(q);
-      if (along < from_mm || along > nearest || (along == nearest && hit.triangle >= 0 && t > hit.triangle))
-        continue;
-      nearest = along;
-      hit = {along, t};
-    }
-  }
+  // Möller & Trumbore 1997
+  const auto visit = [&](std::int32_t t) {
+    const auto index = static_cast<std::size_t>(t);
+    const Vector3d e1 = mesh_.corner(index, 1) - mesh_.corner(index, 0);
+    const Vector3d e2 = mesh_.corner(index, 2) - mesh_.corner(index, 0);
+    const Vector3d h = direction.cross(e2);
+    const double determinant = e1.dot(h);
+    if (determinant == 0.0) return;
+    const Vector3d s = (origin - mesh_.corner(index, 0)) / determinant;
+    const double u = s.dot(h);
+    const Vector3d q = s.cross(e1);
+    const double v = direction.dot(q);
+    if (u < 0.0 || v < 0.0 || u + v > 1.0) return;
+    const double along = e2.dot(q);
+    if (along < from_mm || along > nearest || (along == nearest && hit.triangle >= 0 && t > hit.triangle))
+      return;
+    nearest = along;
+    hit = {along, t};
+  };
+  walk(enters, visit);
   return hit;
 }
 

@@ -64,6 +64,9 @@ class TriangleBvh {
     std::int32_t first;  ///< of the triangles in order_, or the right child (the left one follows its parent)
     std::int32_t count;  ///< of triangles; 0 for an inner node
   };
+  /// Visits the triangles of all leaves whose boxes, and those of all nodes above them, are entered.
+  template <class Enters, class Visit>
+  void walk(const Enters& enters, const Visit& visit) const;
   std::int32_t build(std::int32_t begin, std::int32_t end, const std::vector<Eigen::Vector3d>& centres);
 
   const TriangleMesh& mesh_;

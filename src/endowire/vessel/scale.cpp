@@ -121,11 +121,18 @@ constexpr std::array<Scale, 5> scales{{{1.0, "millimetres", "mm"},
 
 std::string UnitChoice::text() const {
   std::string text(name_of(unit));
-  if (!inferred) return text + ", as declared";
+  if (!inferred) return text + ", as declared" + likelier_text();
   text += ", inferred: the lumen is then " + rounded(lumen_mm) + " mm wide, the vessel " +
           rounded(extent_mm) + " mm long";
   if (second) text += " (" + std::string(name_of(*second)) + " would be possible too: say which)";
   return text;
+}
+
+std::string UnitChoice::likelier_text() const {
+  if (!likelier) return {};
+  return "; the lumen is then " + rounded(lumen_mm) + " mm wide, in " + std::string(name_of(*likelier)) +
+         " it would be " + rounded(likelier_lumen_mm) + " mm, which is likelier: if so, unit = \"" +
+         std::string(name_of(*likelier)) + "\"";
 }
 
 UnitChoice choose_unit(const TriangleMesh& soup, std::optional<LengthUnit> declared,
@@ -140,6 +147,15 @@ UnitChoice choose_unit(const TriangleMesh& soup, std::optional<LengthUnit> decla
   if (declared) {
     if (!measures.possible(millimetres_in(*declared))) refuse(measures, *declared, file_label);
     choice.unit = *declared;
+    double least = measures.cost(millimetres_in(*declared)) - nearly_as_good;
+    for (const LengthUnit other : units) {
+      const double factor = millimetres_in(other);
+      const double cost = measures.cost(factor) + rarity(other);
+      if (other == *declared || !measures.likely(factor) || cost >= least) continue;
+      least = cost;
+      choice.likelier = other;
+      choice.likelier_lumen_mm = measures.lumen * factor;
+    }
   } else {
     std::array<double, units.size()> costs{};
     std::size_t best = 0;

@@ -18,12 +18,16 @@ inline constexpr double max_extent_mm = 3000.0;
 struct UnitChoice {
   LengthUnit unit = LengthUnit::millimetre;
   bool inferred = false;
-  double lumen_mm = 0.0;             ///< median width between walls; of a vessel wall its thickness
-  double extent_mm = 0.0;            ///< diagonal of the box around it
-  std::optional<LengthUnit> second;  ///< another unit that is nearly as plausible
+  double lumen_mm = 0.0;               ///< median width between walls; of a vessel wall its thickness
+  double extent_mm = 0.0;              ///< diagonal of the box around it
+  std::optional<LengthUnit> second;    ///< another unit that is nearly as plausible
+  std::optional<LengthUnit> likelier;  ///< a unit that is more plausible by far than the one declared
+  double likelier_lumen_mm = 0.0;      ///< the width that the lumen would have in it
 
   /// "mm, inferred: the lumen is then 14.2 mm wide, the vessel 654 mm long"
   [[nodiscard]] std::string text() const;
+  /// "; in cm the lumen would be 20 mm wide, which is likelier: say unit = "cm" if it is so"; empty when there is no such unit
+  [[nodiscard]] std::string likelier_text() const;
 };
 
 /// The unit in which a vessel is as wide and as long as vessels are.

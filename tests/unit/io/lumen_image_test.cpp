@@ -92,6 +92,24 @@ TEST(LumenImage, SeveralLabelsAreAmbiguousUntilOneIsNamed) {
   EXPECT_NE(refusal(labels(), options).find("--label is 4; must be one of 3"), std::string::npos);
 }
 
+TEST(LumenImage, ALabelThatIsNamedMakesALabelMapOfWholeNumbers) {
+  // No background of zero, values that change from voxel to voxel: taken for grey levels, but the user says otherwise.
+  std::size_t n = 0;
+  Volume volume = labels();
+  for (float& value : volume.values)
+    if (value == 0.0F) value = static_cast<float>(1000 + n++ % 3);
+  VolumeOptions options;
+  options.label = 3;
+  const LumenImage image = lumen_of(volume, options, "v.nii");
+  EXPECT_TRUE(image.report.label_map);
+  EXPECT_EQ(image.report.label, 3);
+  options.label = 4;
+  EXPECT_NE(refusal(volume, options).find("--label is 4; must be one of 3"), std::string::npos);
+  volume.values[0] = 0.5F;
+  volume.whole_numbers = false;
+  EXPECT_NE(refusal(volume, options).find("--label is 4, and this is a grey-level image"), std::string::npos);
+}
+
 TEST(LumenImage, TheLargestPieceIsKeptOrAll) {
   Volume volume = labels();
   for (float& value : volume.values) value = value > 0.0F ? 1.0F : 0.0F;

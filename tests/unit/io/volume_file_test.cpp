@@ -101,6 +101,150 @@ TEST(VolumeFile, ASeriesOfDicomFilesIsSortedByPlace) {
   expect_same(read_volume(folder / "s/8.dcm"), volume);
 }
 
+TEST(VolumeFile, AFileOfASeriesStandsForItsSeries) {
+  const TemporaryFolder folder;
+  Volume volume = oblique();
+  volume.step_mm.col(2) = -volume.step_mm.col(2);
+  Volume other = volume;
+  for (float& value : other.values) value += 1.0F;
+  std::filesystem::create_directory(folder / "s");
+  for (std::int64_t k = 0; k < 3; ++k) {
+    test::write_text(folder / ("s/a" + std::to_string(k) + ".dcm"), test::dicom_file(volume, k));
+    test::write_text(folder / ("s/IM" + std::to_string(k)), test::dicom_file(other, k, "1.2.4"));
+  }
+  test::write_text(folder / "s/readme.txt", "not a slice");
+  // A directory of the disc: a DICOM file without an image.
+  const std::string slice = test::dicom_file(volume, 0);
+  test::write_text(folder / "s/DICOMDIR", slice.substr(0, slice.find("1.2.840.10008.1.2.1") + 20));
+  const std::string said =
+      message_of<base::InputError>([&] { static_cast<void>(read_volume(folder / "s")); });
+  EXPECT_NE(
+      said.find(
+          "holds 2 series, 1.2.3 (3 slices), 1.2.4 (3 slices); must be one: name a file of the one meant"),
+      std::string::npos)
+      << said;
+  EXPECT_NE(said.find("s/IM0"), std::string::npos) << said;
+  EXPECT_TRUE(names_a_volume(folder / "s/IM1")) << "no ending";
+  expect_same(read_volume(folder / "s/IM1"), other);
+  const Volume read = read_volume(folder / "s/a2.dcm");
+  expect_same(read, volume);
+  EXPECT_EQ(
+      read.frame,
+      "DICOM, 3 slices, LPS in the files, 3 slices of other series left out, 2 other files passed over");
+}
+
+TEST(VolumeFile, EverySliceHasItsOwnScaleOfValues) {
+  const TemporaryFolder folder;
+  Volume volume = oblique();
+  volume.step_mm.col(2) = -volume.step_mm.col(2);
+  std::filesystem::create_directory(folder / "s");
+  for (std::int64_t k = 0; k < 3; ++k) {
+    std::string file = test::dicom_file(volume, k);
+    if (k == 1) file.replace(file.find("-1000"), 5, "-900 ");
+    test::write_text(folder / ("s/" + std::to_string(k)), file);
+  }
+  const Volume read = read_volume(folder / "s");
+  for (std::size_t i = 0; i < read.values.size(); ++i)
+    EXPECT_EQ(read.values[i], volume.values[i] + (i / 20 == 1 ? 100.0F : 0.0F)) << i;
+}
+
+TEST(VolumeFile, ASliceAsideIsRefused) {
+  const TemporaryFolder folder;
+  test::Grid grid;
+  grid.size = {4, 4, 5};
+  const Volume volume = test::volume_of(grid, [](const Vector3d& p) { return p.z(); });
+  std::filesystem::create_directory(folder / "s");
+  for (std::int64_t k = 0; k < 5; ++k) {
+    Volume shifted = volume;
+    if (k == 3) shifted.origin_mm.x() += 2.0;
+    test::write_text(folder / ("s/" + std::to_string(k) + ".dcm"), test::dicom_file(shifted, k));
+  }
+  const std::string said =
+      message_of<base::InputError>([&] { static_cast<void>(read_volume(folder / "s")); });
+  EXPECT_NE(said.find("3.dcm: lies 2.000 mm beside the line of the series"), std::string::npos) << said;
+}
+
+TEST(VolumeFile, LengthsInOtherUnitsBecomeMillimetres) {
+  const TemporaryFolder folder;
+  struct Case {
+    const char* name;
+    double mm;
+  };
+  const Volume volume = oblique();
+  for (const Case& c : {Case{"cm", 10.0}, Case{"um", 1e-3}, Case{"mm", 1.0}}) {
+    Volume scaled = volume;
+    scaled.step_mm /= c.mm;
+    scaled.origin_mm /= c.mm;
+    std::string meta = test::meta_image_file(scaled, false);
+    meta.insert(meta.find("DimSize"), std::string("DistanceUnits = ") + c.name + "\n");
+    test::write_text(folder / "v.mha", meta);
+    expect_same(read_volume(folder / "v.mha"), volume);
+    EXPECT_EQ(read_volume(folder / "v.mha").unit_mm, c.mm);
+    std::string nrrd = test::nrrd_file(scaled, false);
+    const std::string quoted = std::string(" \"") + c.name + "\"";
+    nrrd.insert(nrrd.find("kinds:"), "space units:" + quoted + quoted + quoted + "\n");
+    test::write_text(folder / "v.nrrd", nrrd);
+    expect_same(read_volume(folder / "v.nrrd"), volume);
+    // The user knows better.
+    expect_same(read_volume(folder / "v.nrrd", c.mm), volume);
+    EXPECT_NEAR(read_volume(folder / "v.mha", 2.0 * c.mm).origin_mm.z(), 1600.0, 1e-3);
+  }
+  std::string nrrd = test::nrrd_file(volume, false);
+  nrrd.insert(nrrd.find("kinds:"), "space units: \"mm\" \"cm\" \"mm\"\n");
+  test::write_text(folder / "v.nrrd", nrrd);
+  EXPECT_NE(message_of<base::InputError>([&] {
+              static_cast<void>(read_volume(folder / "v.nrrd"));
+            }).find("space units is \"\"mm\" \"cm\" \"mm\"\"; must be the same unit of length"),
+            std::string::npos);
+}
+
+TEST(VolumeFile, RealNumbersThatAreWholeMakeLabelMaps) {
+  const TemporaryFolder folder;
+  Volume volume = oblique();
+  std::string file = test::nifti_file(volume).substr(0, 352);
+  const auto write = [&](std::int16_t code, auto zero) {
+    std::string bytes = file;
+    test::put<std::int16_t>(bytes, 70, code);
+    for (const float value : volume.values) {
+      const auto number = static_cast<decltype(zero)>(value);
+      bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+    }
+    test::write_text(folder / "v.nii", bytes);
+    return read_volume(folder / "v.nii").whole_numbers;
+  };
+  EXPECT_TRUE(write(16, 0.0F));
+  EXPECT_TRUE(write(64, 0.0));
+  volume.values[7] += 0.5F;
+  EXPECT_FALSE(write(16, 0.0F));
+  EXPECT_FALSE(write(64, 0.0));
+}
+
+/// The other way of NIfTI to say where a volume lies: a quaternion, and a sign of the third axis.
+TEST(VolumeFile, TheQformOfALeftHandedVolumeIsNotMirrored) {
+  const TemporaryFolder folder;
+  const Volume volume = oblique();
+  const Vector3d ras(-1.0, -1.0, 1.0);
+  Eigen::Matrix3d axes = ras.asDiagonal() * volume.step_mm;
+  for (Eigen::Index k = 0; k < 3; ++k) axes.col(k).normalize();
+  ASSERT_LT(axes.determinant(), 0.0);
+  axes.col(2) = -axes.col(2);
+  const Eigen::Quaterniond turn(axes);
+  const double sign = turn.w() < 0.0 ? -1.0 : 1.0;
+  std::string file = test::nifti_file(volume);
+  test::put<std::int16_t>(file, 252, 1);
+  test::put<std::int16_t>(file, 254, 0);
+  test::put<float>(file, 76, -1.0F);
+  test::put(file, 256, static_cast<float>(sign * turn.x()));
+  test::put(file, 260, static_cast<float>(sign * turn.y()));
+  test::put(file, 264, static_cast<float>(sign * turn.z()));
+  for (std::size_t k = 0; k < 3; ++k)
+    test::put(file, 268 + 4 * k,
+              static_cast<float>(ras[static_cast<Eigen::Index>(k)] *
+                                 volume.origin_mm[static_cast<Eigen::Index>(k)]));
+  test::write_text(folder / "v.nii", file);
+  expect_same(read_volume(folder / "v.nii"), volume);
+}
+
 TEST(VolumeFile, ASeriesWithAFlawIsRefusedWithItsSlice) {
   const TemporaryFolder folder;
   test::Grid grid;

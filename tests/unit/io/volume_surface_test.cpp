@@ -8,7 +8,9 @@
 #include <numbers>
 
 #include "endowire/base/error.hpp"
+#include "endowire/vessel/mesh.hpp"
 #include "endowire/vessel/repair.hpp"
+#include "endowire/vessel/winding.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/volume_files.hpp"
 
@@ -89,6 +91,69 @@ TEST(VolumeSurface, IsClosedAndLiesWhereTheImageDoes) {
   EXPECT_EQ(repaired.report.components, 1U);
   EXPECT_LT((repaired.report.bounds_mm.center() - middle).norm(), 0.2);
   EXPECT_NEAR(repaired.report.volume_mm3, 4.0 / 3.0 * std::numbers::pi * 216.0, 20.0);
+}
+
+TEST(VolumeSurface, LeftHandedAxesDoNotTurnItInsideOut) {
+  for (const double sign : {1.0, -1.0}) {
+    test::Grid grid;
+    grid.step_mm = Vector3d(0.5, 0.6 * sign, 0.8).asDiagonal();
+    grid.origin_mm = {10.0, 20.0, 30.0};
+    // Neither its own mirror image nor in the middle.
+    const Vector3d large = grid.place_mm(14, 12, 12);
+    const Vector3d small = grid.place_mm(24, 22, 18);
+    Volume volume = test::volume_of(grid, [&](const Vector3d& p) {
+      return (p - large).norm() < 5.0 || (p - small).norm() < 3.0 ||
+                     ((p - large).dot(small - large) > 0.0 && (p - small).dot(large - small) > 0.0 &&
+                      test::from_line_mm(p, large, (small - large).normalized()) < 2.0)
+                 ? 1.0
+                 : 0.0;
+    });
+    volume.whole_numbers = true;
+    VolumeReport report;
+    const vessel::TriangleMesh mesh = lumen_surface(volume, {}, "v", report);
+    EXPECT_GT(vessel::signed_volume_mm3(mesh), 400.0) << "faces inward";
+    const vessel::RepairedMesh repaired = vessel::repair(mesh, "v");
+    EXPECT_EQ(repaired.report.flipped_triangles, 0U);
+    EXPECT_FALSE(repaired.report.inward_in_file);
+    EXPECT_NEAR((vessel::bounds_mm(mesh).min() - (large - Vector3d::Constant(5.0))).x(), 0.0, 0.3);
+    EXPECT_NEAR(vessel::winding_number(mesh, small), 1.0, 1e-6);
+    EXPECT_NEAR(vessel::winding_number(mesh, large), 1.0, 1e-6);
+  }
+}
+
+/// Area of what lies in the plane z = height, facing along z.
+double flat_area_mm2(const vessel::TriangleMesh& mesh, double height_mm) {
+  double area = 0.0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    bool flat = true;
+    for (std::size_t k = 0; k < 3; ++k) flat = flat && std::abs(mesh.corner(t, k).z() - height_mm) < 1e-5;
+    if (flat) area += 0.5 * mesh.area_normal(t).norm();
+  }
+  return area;
+}
+
+TEST(VolumeSurface, EndsAtTheBorderOfTheImageAreFlatAfterSmoothingToo) {
+  for (const bool grey : {false, true}) {
+    test::Grid grid;
+    const Vector3d along = Vector3d(0.25, 0.0, 1.0).normalized();
+    Volume volume = test::volume_of(grid, [&](const Vector3d& p) {
+      const double inside = 5.0 - test::from_line_mm(p, {17, 18, 0}, along);
+      return grey ? 300.0 * std::clamp(inside + 0.5, 0.0, 1.0) : (inside > 0.0 ? 1.0 : 0.0);
+    });
+    volume.whole_numbers = !grey;
+    VolumeOptions options;
+    if (grey) options.threshold = 150.0;
+    VolumeReport report;
+    const vessel::TriangleMesh mesh = lumen_surface(volume, options, "tube", report);
+    EXPECT_GT(report.smoothing_passes, 0);
+    const vessel::RepairedMesh repaired = vessel::repair(mesh, "tube");
+    EXPECT_TRUE(repaired.openings.empty());
+    EXPECT_EQ(repaired.report.components, 1U);
+    // All but a chamfer: the rim falls by half a voxel within half a voxel.
+    const double section = std::numbers::pi * 4.5 * 4.5 / along.z();
+    for (const double end : {-0.5, 31.5})
+      EXPECT_NEAR(flat_area_mm2(mesh, end), section, 0.12 * section) << (grey ? "grey, " : "labels, ") << end;
+  }
 }
 
 TEST(VolumeSurface, AVesselThatLeavesTheImageIsClosedAtItsBorder) {

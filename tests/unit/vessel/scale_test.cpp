@@ -82,6 +82,21 @@ TEST(Unit, AnImpossibleOneIsRefusedWithTheLikelyFactor) {
       << micrometres;
 }
 
+TEST(Unit, ADeclaredOneThatIsPossibleIsTakenAndALikelierOneNamed) {
+  const TriangleMesh aorta = test::open_tube(10.0, 300.0, 24, 40);
+  const UnitChoice choice = choose_unit(scaled(aorta, 0.1), LengthUnit::millimetre, "v");
+  EXPECT_EQ(choice.unit, LengthUnit::millimetre);
+  EXPECT_FALSE(choice.likelier.has_value()) << "2 mm wide and 30 mm long is a vessel";
+  const UnitChoice odd = choose_unit(scaled(aorta, 0.03), LengthUnit::millimetre, "v");
+  EXPECT_EQ(odd.unit, LengthUnit::millimetre);
+  EXPECT_EQ(odd.likelier, LengthUnit::centimetre);
+  EXPECT_NE(
+      odd.text().find("mm, as declared; the lumen is then 0.595 mm wide, in cm it would be 5.95 mm, which is "
+                      "likelier: if so, unit = \"cm\""),
+      std::string::npos)
+      << odd.text();
+}
+
 TEST(Unit, ASheetIsNoLumen) {
   TriangleMesh sheet;
   sheet.vertices_mm = {{0, 0, 0}, {50, 0, 0}, {0, 50, 0}, {50, 50, 0}};
