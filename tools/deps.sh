@@ -7,7 +7,7 @@ set -euo pipefail
 
 # The only list of packages. Debian 12 and Ubuntu 22.04 or later; "package:command" is satisfied by the command, wherever it comes from.
 run_packages=(g++:g++ cmake:cmake ninja-build:ninja make:make libeigen3-dev libtomlplusplus-dev nlohmann-json3-dev
-              libcli11-dev libfmt-dev zlib1g-dev libvtk9-dev)
+              libcli11-dev libfmt-dev zlib1g-dev libtbb-dev libvtk9-dev)
 test_packages=(libgtest-dev clang-format-14:clang-format-14 clang-tidy-14:clang-tidy-14 emscripten:emcc nodejs:node)
 bench_packages=(libbenchmark-dev)
 

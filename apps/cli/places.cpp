@@ -1,4 +1,5 @@
-#include <cstdlib>
+#include "endowire/io/places.hpp"
+
 #include <system_error>
 
 #include "commands.hpp"
@@ -14,17 +15,11 @@ fs::path program_folder() {
 }
 
 std::vector<fs::path> instrument_folders() {
-  std::vector<fs::path> folders;
-  if (const char* own = std::getenv("ENDOWIRE_INSTRUMENTS"); own != nullptr && *own != '\0')
-    folders.emplace_back(own);
-  if (const fs::path here = program_folder(); !here.empty()) {
-    folders.push_back(here / "instruments");
-    folders.push_back(here / ".." / "share" / "endowire" / "instruments");
-  }
 #ifdef ENDOWIRE_SOURCE_DIR
-  folders.emplace_back(fs::path(ENDOWIRE_SOURCE_DIR) / "instruments");
+  return io::instrument_folders(program_folder(), ENDOWIRE_SOURCE_DIR);
+#else
+  return io::instrument_folders(program_folder(), {});
 #endif
-  return folders;
 }
 
 }  // namespace endowire::cli

@@ -3,12 +3,9 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <future>
+#include <utility>
 
 #include "commands.hpp"
-#include "endowire/base/error.hpp"
-#include "endowire/io/centreline_file.hpp"
-#include "endowire/io/scene_vessel.hpp"
 #include "endowire/sim/event_watch.hpp"
 #include "results.hpp"
 
@@ -34,17 +31,6 @@ int report_failure(const Procedure& procedure) {
              io::name_of(first.solve.termination),
              procedure.statistics.steps - procedure.statistics.converged_steps, procedure.statistics.steps);
   return exit_not_converged;
-}
-
-/// Calls something of a lower layer, which knows no file names: bad input is named after the scene.
-template <class Call>
-auto named_after(const std::string& scene, Call call) {
-  try {
-    return call();
-  } catch (const base::InputError& error) {
-    const std::string message = error.what();
-    throw base::InputError(message.starts_with(scene) ? message : scene + ": " + message);
-  }
 }
 
 /// Recording and shapes are written as they happen.
@@ -96,20 +82,9 @@ void add_run_options(CLI::App& command, RunOptions& options) {
 
 Procedure prepare(io::SceneFile scene, const std::string& cache, Progress& progress) {
   Procedure procedure;
-  procedure.scene = std::move(scene);
   progress.stage("preparing the vessel …");
   const Clock::time_point start = Clock::now();
-  procedure.vessel = io::vessel_of(procedure.scene);
-  std::future<std::shared_ptr<const vessel::CentrelineTree>> centrelines =
-      std::async(std::launch::async, [&] { return io::prepare_centrelines(procedure.vessel, cache); });
-  procedure.prepared = io::prepare_field(procedure.vessel, cache);
-  procedure.centrelines = centrelines.get();
-  procedure.scene.access = io::access_of(procedure.scene, procedure.vessel, *procedure.centrelines);
-  procedure.scene.target = io::target_of(procedure.scene, procedure.vessel, *procedure.centrelines);
-  if (procedure.scene.target)
-    procedure.target = named_after(procedure.scene.name, [&] {
-      return sim::find_target(*procedure.centrelines, *procedure.scene.target);
-    });
+  static_cast<io::PreparedScene&>(procedure) = io::prepare_scene(std::move(scene), cache);
   procedure.preparation_s = seconds_since(start);
   return procedure;
 }
@@ -117,10 +92,7 @@ Procedure prepare(io::SceneFile scene, const std::string& cache, Progress& progr
 int run_procedure(Procedure& procedure, std::span<const io::TimedCommand> commands,
                   const io::RecordingHeader& header, const RunOptions& options, Progress& progress,
                   const StepWatcher& watcher) {
-  sim::Simulation simulation = named_after(procedure.scene.name, [&] {
-    return sim::Simulation(procedure.prepared.field, procedure.scene.instrument, procedure.scene.access,
-                           procedure.scene.simulation);
-  });
+  sim::Simulation simulation = io::simulation_of(procedure);
   // From here on the input is good: only now is the folder touched.
   io::RunOutput output(options.out, header, procedure.scene.access);
   fs::path triangles = procedure.scene.vessel.file;

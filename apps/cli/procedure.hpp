@@ -3,18 +3,17 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "endowire/io/picture.hpp"
+#include "endowire/io/prepared_scene.hpp"
 #include "endowire/io/run_history.hpp"
 #include "endowire/io/run_output.hpp"
 #include "endowire/io/scene_file.hpp"
 #include "endowire/io/statistics.hpp"
-#include "endowire/io/vessel_file.hpp"
 #include "endowire/sim/simulation.hpp"
 #include "progress.hpp"
 
@@ -28,12 +27,7 @@ struct RunOptions {
 };
 
 /// A procedure on its way: the input, then what became of it.
-struct Procedure {
-  io::SceneFile scene;
-  io::VesselMesh vessel;
-  io::PreparedField prepared;
-  std::shared_ptr<const vessel::CentrelineTree> centrelines;
-  std::optional<sim::Target> target;
+struct Procedure : io::PreparedScene {
   double preparation_s = 0.0;
   io::RunStatistics statistics;
   std::vector<io::ForcePoint> forces;  ///< a point a step

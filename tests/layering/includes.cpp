@@ -24,6 +24,7 @@ const std::map<std::string, Names>& layers_below() {
       {"contact", {"base", "math", "vessel", "rod", "solve"}},
       {"sim", {"base", "math", "vessel", "rod", "solve", "contact"}},
       {"imaging", {"base", "math", "vessel", "rod", "solve", "contact", "sim"}},
+      {"batch", {"base", "math", "vessel", "rod", "solve", "contact", "sim"}},
       {"io", {"base", "math", "vessel", "rod", "solve", "contact", "sim", "imaging"}},
   };
   return below;
@@ -32,6 +33,10 @@ const std::map<std::string, Names>& layers_below() {
 /// Names of the standard library have neither a folder nor an ending.
 bool standard_or_eigen(const std::string& name) {
   return name.find_first_of("/.") == std::string::npos || name.rfind("Eigen/", 0) == 0;
+}
+
+bool one_tbb(const std::string& name) {
+  return name.rfind("oneapi/tbb/", 0) == 0;
 }
 
 /// What is wrong with `#include "name"` or <name> in a file of `layer`; empty when nothing is.
@@ -48,6 +53,7 @@ std::string fault(const std::string& layer, const std::string& name, bool quoted
   }
   if (layer == "apps" || layer == "judge") return "";
   if (quoted) return "name it from the source root, \"endowire/...\", not \"" + name + "\"";
+  if (layer == "batch" && one_tbb(name)) return "";
   if (layer != "io" && !standard_or_eigen(name))
     return layer + " may use the standard library and Eigen alone, not <" + name + ">";
   return "";

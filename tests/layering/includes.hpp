@@ -14,10 +14,10 @@ struct LayeringReport {
 
 /// Reads the #include lines of src/endowire, apps and tools/check_crossings under `root`.
 ///
-///   base ← math ← { vessel, rod, solve } ← contact ← sim ← imaging ← io ← apps
+///   base ← math ← { vessel, rod, solve } ← contact ← sim ← { batch, imaging ← io } ← apps
 ///
 /// A layer includes itself and what stands to its left, siblings never each other. Below io only the standard
-/// library, Eigen and endowire are included. The judge includes nothing of endowire.
+/// library, Eigen and endowire are included; by batch oneTBB too. The judge includes nothing of endowire.
 [[nodiscard]] LayeringReport read_includes(const std::filesystem::path& root);
 
 }  // namespace endowire::tests

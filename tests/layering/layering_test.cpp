@@ -60,6 +60,15 @@ TEST_F(PlantedInclude, LibraryBelowIoIsFound) {
   EXPECT_NE(violations("src/endowire/math/a.cpp", "#include <unistd.h>"), "");
 }
 
+TEST_F(PlantedInclude, ThreadsOutsideTheBatchAreFound) {
+  EXPECT_NE(violations("src/endowire/sim/a.cpp", "#include <oneapi/tbb/parallel_for.h>"), "");
+  EXPECT_EQ(violations("src/endowire/batch/a.cpp", "#include <oneapi/tbb/parallel_for.h>"), "");
+  EXPECT_NE(violations("src/endowire/batch/a.cpp", "#include <fmt/format.h>"), "");
+  EXPECT_NE(violations("src/endowire/batch/a.cpp", "#include \"endowire/io/file.hpp\""), "");
+  EXPECT_NE(violations("src/endowire/io/a.cpp", "#include \"endowire/batch/batch.hpp\""), "");
+  EXPECT_NE(violations("src/endowire/sim/a.cpp", "#include \"endowire/batch/batch.hpp\""), "");
+}
+
 TEST_F(PlantedInclude, NameThatHidesItsLayerIsFound) {
   EXPECT_NE(violations("src/endowire/rod/a.cpp", "#include \"../sim/simulation.hpp\""), "");
 }

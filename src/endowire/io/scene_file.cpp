@@ -324,9 +324,9 @@ double steps_of(const sim::Motion& motion, const SceneFile& scene) {
   return steps;
 }
 
-void read_motions(const TomlTable& root, SceneFile& scene) {
+void read_motions(const TomlTable& root, SceneFile& scene, Script script) {
   const std::vector<TomlTable> tables = root.tables("motion", {"duration_s", "hands"});
-  if (tables.empty()) root.refuse_missing("motion", "at least one [[motion]]");
+  if (tables.empty() && script == Script::required) root.refuse_missing("motion", "at least one [[motion]]");
   const double length_mm = scene.instrument.length_mm();
   double advanced_mm = 0.0;
   double steps = 0.0;
@@ -363,7 +363,8 @@ void read_motions(const TomlTable& root, SceneFile& scene) {
 
 /// @param recorded  null: vessel and instrument are looked for
 SceneFile read_scene(const std::string& text, const std::string& name,
-                     const std::vector<fs::path>& instrument_folders, const RecordedParts* recorded) {
+                     const std::vector<fs::path>& instrument_folders, const RecordedParts* recorded,
+                     Script script) {
   const toml::table toml = parse_toml(text, name);
   const TomlTable root(toml, name, "",
                        {"schema", "title", "vessel", "access", "environment", "wall", "rods", "solver",
@@ -383,7 +384,7 @@ SceneFile read_scene(const std::string& text, const std::string& name,
     recorded->instrument.validate(name + ": instrument");
     scene.instrument = recorded->instrument;
   }
-  read_motions(root, scene);
+  read_motions(root, scene, script);
   read_target(root, scene);
   return scene;
 }
@@ -391,16 +392,17 @@ SceneFile read_scene(const std::string& text, const std::string& name,
 }  // namespace
 
 SceneFile parse_scene(const std::string& text, const std::string& name,
-                      const std::vector<fs::path>& instrument_folders) {
-  return read_scene(text, name, instrument_folders, nullptr);
+                      const std::vector<fs::path>& instrument_folders, Script script) {
+  return read_scene(text, name, instrument_folders, nullptr, script);
 }
 
 SceneFile parse_scene(const std::string& text, const std::string& name, const RecordedParts& parts) {
-  return read_scene(text, name, {}, &parts);
+  return read_scene(text, name, {}, &parts, Script::required);
 }
 
-SceneFile read_scene_file(const fs::path& path, const std::vector<fs::path>& instrument_folders) {
-  return parse_scene(read_file(path, max_scene_bytes), one_line(path.string()), instrument_folders);
+SceneFile read_scene_file(const fs::path& path, const std::vector<fs::path>& instrument_folders,
+                          Script script) {
+  return parse_scene(read_file(path, max_scene_bytes), one_line(path.string()), instrument_folders, script);
 }
 
 std::vector<TimedCommand> commands_of(const SceneFile& scene) {

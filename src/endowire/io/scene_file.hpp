@@ -46,17 +46,22 @@ struct SceneFile {
   std::string perforation_source;  ///< where the threshold of a perforation comes from
 };
 
+/// Whether a scene has to say what the hands do: a script is played, a simulation that is steered from outside needs none.
+enum class Script : std::uint8_t { required, optional };
+
 /// Reads a scene. Relative vessel and instrument paths are relative to the scene's folder; an instrument is a
 /// model name, searched for in `instrument_folders`, or a path that ends in `.toml`.
 /// @throws base::InputError `scene.toml: motion[2].duration_s is -1; must be > 0`, for every unknown key,
 /// wrong
 ///         type, value outside its range and missing file; indices count from 0, as in the file's lists.
 [[nodiscard]] SceneFile read_scene_file(const std::filesystem::path& path,
-                                        const std::vector<std::filesystem::path>& instrument_folders);
+                                        const std::vector<std::filesystem::path>& instrument_folders,
+                                        Script script = Script::required);
 
 /// Same, from text; `name` stands for the file in messages and its folder for relative paths.
 [[nodiscard]] SceneFile parse_scene(const std::string& text, const std::string& name,
-                                    const std::vector<std::filesystem::path>& instrument_folders);
+                                    const std::vector<std::filesystem::path>& instrument_folders,
+                                    Script script = Script::required);
 
 /// What stands in for the files that a scene names when it is read again from a recording.
 struct RecordedParts {

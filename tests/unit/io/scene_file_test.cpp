@@ -42,6 +42,19 @@ std::string replaced(const std::string& from, const std::string& to) {
   return text.replace(at, from.size(), to);
 }
 
+// A hand that steers from outside needs no script; `endowire simulate` does.
+TEST(SceneFile, MotionsMayBeLeftOutWhereTheHandIsElsewhere) {
+  const std::string without = good.substr(0, good.find("[[motion]]"));
+  EXPECT_NE(message_of<base::InputError>([&] {
+              static_cast<void>(parse_scene(without, "s.toml", library));
+            }).find("motion"),
+            std::string::npos);
+  const SceneFile scene = parse_scene(without, "s.toml", library, Script::optional);
+  EXPECT_TRUE(scene.motions.empty());
+  EXPECT_TRUE(commands_of(scene).empty());
+  EXPECT_EQ(parse_scene(good, "s.toml", library, Script::optional).motions.size(), 2U);
+}
+
 TEST(SceneFile, ReadsEveryPart) {
   const SceneFile scene = parse_scene(good, "s.toml", library);
   ASSERT_TRUE(scene.vessel.generate);
