@@ -220,7 +220,7 @@ TEST_F(SheathedAtARamp, SecondDerivativeOfTheFeed) {
 
 // On a uniform wire without a kink nothing is left out of the feed's row.
 TEST_F(SheathedUniform, HessianOfTheFeed) {
-  const Linearised here = expect_second_derivative_of_the_feed();
+  Linearised here = expect_second_derivative_of_the_feed();
   // Its row: what the gradients by all others change by.
   std::vector<double> row(direction_.size());
   here.hessian.multiply(direction_, row);
