@@ -34,8 +34,9 @@ constexpr double kCheck_mm = 0.05;
 constexpr double kMaxStep_mm = 0.7;
 /// Detections within one sub-step: a snap crosses the lumen in pieces of kRegion_mm.
 constexpr int kMaxDetections = 400;
-/// Corrections of touching walls within one sub-step: where the field has an edge, they need not come to rest.
-constexpr int kMaxCorrections = 24;
+/// Corrections of touching walls within one sub-step: where the field has an edge, they need not come to rest. Over a crest that nearly
+/// tips the wire over they settle by a tenth a time only.
+constexpr int kMaxCorrections = 48;
 /// From this one on the field's own error is allowed.
 constexpr int kUnevenFrom = 12;
 /// Room for samples: eight a millimetre are the most that a narrow lumen asks for, and some for ridges.
