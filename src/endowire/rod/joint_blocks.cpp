@@ -23,20 +23,20 @@ double square(double x) {
 
 }  // namespace
 
-void blocks_of(const JointDerivatives& d, const JointRods& rods, JointBlocks& out) {
+void blocks_of(const JointDerivatives& joint, const JointRods& rods, JointBlocks& out) {
   using Lever = Eigen::Matrix<double, 3, 2>;
   const Lever a = rods.hand_side.leftCols<2>() / rods.hand_length_mm;
   const Lever b = rods.tip_side.leftCols<2>() / rods.tip_length_mm;
-  const auto& h = d.hessian;
+  const auto& h = joint.hessian;
   const auto block = [](const Lever& left, const Eigen::Matrix2d& middle, const Lever& right) {
     const Lever lm = left.lazyProduct(middle);
     return Eigen::Matrix3d(lm.lazyProduct(right.transpose()));
   };
-  out.energy_mj = d.energy_mj;
-  out.hand = a * d.gradient.segment<2>(0);
-  out.tip = b * d.gradient.segment<2>(3);
-  out.hand_spin = d.gradient[2];
-  out.tip_spin = d.gradient[5];
+  out.energy_mj = joint.energy_mj;
+  out.hand = a * joint.gradient.segment<2>(0);
+  out.tip = b * joint.gradient.segment<2>(3);
+  out.hand_spin = joint.gradient[2];
+  out.tip_spin = joint.gradient[5];
   out.hand_hand =
       block(a, h.block<2, 2>(0, 0), a) - both(rods.hand_side.col(2), out.hand / rods.hand_length_mm);
   out.tip_tip = block(b, h.block<2, 2>(3, 3), b) - both(rods.tip_side.col(2), out.tip / rods.tip_length_mm);
