@@ -1,5 +1,5 @@
 # The commands of the project. Each installs the system packages it needs (tools/deps.sh), configures and builds.
-.PHONY: help deps run demo test test-long validation bench bench-compare references paper format lint clean
+.PHONY: help deps run demo python test test-long validation bench bench-compare references paper format lint clean
 JOBS ?= $(shell nproc)
 
 help:
@@ -7,6 +7,7 @@ help:
 	@echo "make test       everything that is checked, at most 45 minutes on 2 cores"
 	@echo "make test-long  sweeps that take longer"
 	@echo "make validation docs/validation.md and its pictures, from the code that the tests assert"
+	@echo "make python     the module of Python in build/release/python"
 	@echo "make bench      speed: parts and whole procedures, kept in bench/results"
 	@echo "make bench-compare BASE=<git revision>   is this tree faster, and does it give the same states?"
 	@echo "make references shapes and forces that the tests compare with, after a change that is meant"
@@ -27,6 +28,12 @@ run:
 	@tools/run.sh build/release
 
 demo: run
+
+python:
+	@tools/deps.sh python
+	@cmake --preset release > /dev/null
+	@cmake --build --preset release --parallel $(JOBS) --target endowire_python
+	@echo "PYTHONPATH=build/release/python"
 
 test:
 	@tools/deps.sh test

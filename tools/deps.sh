@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# deps.sh run|test|bench: makes sure that the system packages of a make target are there.
+# deps.sh run|test|python|bench: makes sure that the system packages of a make target are there.
 #
 # Says nothing when they are. Otherwise prints the one line that installs the missing ones and runs it: asks first
 # when a person is at the terminal, without asking when none is and we are root or sudo needs no password.
@@ -8,14 +8,17 @@ set -euo pipefail
 # The only list of packages. Debian 12 and Ubuntu 22.04 or later; "package:command" is satisfied by the command, wherever it comes from.
 run_packages=(g++:g++ cmake:cmake ninja-build:ninja make:make libeigen3-dev libtomlplusplus-dev nlohmann-json3-dev
               libcli11-dev libfmt-dev zlib1g-dev libtbb-dev libvtk9-dev)
-test_packages=(libgtest-dev clang-format-14:clang-format-14 clang-tidy-14:clang-tidy-14 emscripten:emcc nodejs:node)
+python_packages=(pybind11-dev python3-dev python3-numpy)
+test_packages=(libgtest-dev clang-format-14:clang-format-14 clang-tidy-14:clang-tidy-14 emscripten:emcc nodejs:node
+               "${python_packages[@]}")
 bench_packages=(libbenchmark-dev)
 
 case "${1:-}" in
   run) wanted=("${run_packages[@]}") ;;
   test) wanted=("${run_packages[@]}" "${test_packages[@]}") ;;
+  python) wanted=("${run_packages[@]}" "${python_packages[@]}") ;;
   bench) wanted=("${run_packages[@]}" "${bench_packages[@]}") ;;
-  *) echo "usage: tools/deps.sh run|test|bench" >&2; exit 2 ;;
+  *) echo "usage: tools/deps.sh run|test|python|bench" >&2; exit 2 ;;
 esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

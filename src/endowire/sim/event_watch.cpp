@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "endowire/base/error.hpp"
+
 namespace endowire::sim {
 
 namespace {
@@ -29,15 +31,26 @@ void EventWatch::reserve(std::size_t points, double length_mm) {
   overlap_.reserve(points, length_mm);
 }
 
-std::span<const Event> EventWatch::after(const Command& command, const StepReport& report,
+void EventWatch::restore(const EventMemory& memory) {
+  const auto branches = tree_ ? static_cast<std::int32_t>(tree_->branches().size()) : 0;
+  if (memory.branch < -1 || memory.branch >= branches || memory.place.branch < -1 ||
+      memory.place.branch >= branches)
+    throw base::InputError("events: a branch that the vessel does not have");
+  memory_ = memory;
+}
+
+std::span<const Event> EventWatch::after(const Command& commanded, const StepReport& report,
                                          const Snapshot& snapshot) {
+  // A command that is no number was refused: the hand stayed where it was.
+  const bool finite = std::isfinite(commanded.advance_mm) && std::isfinite(commanded.torque_rad);
+  const Command command = finite ? commanded : Command{};
   begun_.clear();
-  for (Episode& episode : episodes_) episode.shown = false;
+  for (Episode& episode : memory_.episodes) episode.shown = false;
   for (const Event& sign : report.events) show(sign);
   watch_stall(command, report, snapshot);
   if (const SelfGap gap = overlap_.nearest(snapshot.points); gap.gap_mm < 0.0)
     show({EventKind::self_overlap, gap.gap_mm, gap.position_mm});
-  for (Episode& episode : episodes_) {
+  for (Episode& episode : memory_.episodes) {
     if (!episode.shown) {
       episode.quiet_mm += travel_mm(command);
       episode.open = episode.open && episode.quiet_mm < quiet_limit_mm(episode.sign.kind);
@@ -53,7 +66,7 @@ std::span<const Event> EventWatch::after(const Command& command, const StepRepor
 
 /// Of several signs of a kind in one step the strongest counts.
 void EventWatch::show(const Event& sign) {
-  Episode& episode = episodes_[static_cast<std::size_t>(sign.kind)];
+  Episode& episode = memory_.episodes[static_cast<std::size_t>(sign.kind)];
   if (episode.shown && std::abs(sign.value) <= std::abs(episode.sign.value)) return;
   episode.shown = true;
   episode.sign = sign;
@@ -61,39 +74,39 @@ void EventWatch::show(const Event& sign) {
 
 void EventWatch::watch_stall(const Command& command, const StepReport& report, const Snapshot& snapshot) {
   if (snapshot.points.empty() || command.advance_mm < 0.0) {
-    pushing_ = stalled_ = false;
+    memory_.pushing = memory_.stalled = false;
     return;
   }
   const Eigen::Vector3d& tip_mm = snapshot.points.front().position_mm;
-  if (pushing_) pushed_mm_ += command.advance_mm;
-  if (pushing_ && pushed_mm_ >= stall_window_mm) {
-    const double progress = (tip_mm - tip_then_mm_).norm() / pushed_mm_;
-    stalled_ = progress < (stalled_ ? free_progress : stall_progress);
-    pushing_ = false;
+  if (memory_.pushing) memory_.pushed_mm += command.advance_mm;
+  if (memory_.pushing && memory_.pushed_mm >= stall_window_mm) {
+    const double progress = (tip_mm - memory_.tip_then_mm).norm() / memory_.pushed_mm;
+    memory_.stalled = progress < (memory_.stalled ? free_progress : stall_progress);
+    memory_.pushing = false;
   }
-  if (!pushing_) {
-    pushing_ = true;
-    pushed_mm_ = 0.0;
-    tip_then_mm_ = tip_mm;
+  if (!memory_.pushing) {
+    memory_.pushing = true;
+    memory_.pushed_mm = 0.0;
+    memory_.tip_then_mm = tip_mm;
   }
-  if (stalled_) show({EventKind::stall, report.push_force_n, tip_mm});
+  if (memory_.stalled) show({EventKind::stall, report.push_force_n, tip_mm});
 }
 
 void EventWatch::watch_branch(const Snapshot& snapshot) {
   if (!tree_ || snapshot.points.empty()) return;
   const Eigen::Vector3d& tip_mm = snapshot.points.front().position_mm;
-  const vessel::NearestCentreline tip = tree_->nearest(tip_mm, place_);
-  place_ = tip.place;
+  const vessel::NearestCentreline tip = tree_->nearest(tip_mm, memory_.place);
+  memory_.place = tip.place;
   const std::int32_t branch = tree_->lumen_branch(tip.place);
   const auto vessel_of = [&](std::int32_t b) -> const std::string& {
     return tree_->branches()[static_cast<std::size_t>(b)].vessel;
   };
   // The next stretch of the same vessel is no news.
-  if (branch_ >= 0 && vessel_of(branch) != vessel_of(branch_)) {
+  if (memory_.branch >= 0 && vessel_of(branch) != vessel_of(memory_.branch)) {
     if (!inside(branch, tip)) return;
     begun_.push_back({EventKind::new_branch, tip.radius_mm, tip_mm, branch});
   }
-  branch_ = branch;
+  memory_.branch = branch;
 }
 
 /// Whether a place lies well within a branch, not just behind one of its ends that lead to others.

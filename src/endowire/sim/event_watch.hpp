@@ -29,6 +29,26 @@ inline constexpr double free_progress = 0.5;
 /// the lumen. Less: a tip that rubs on a carina changes vessel at each step.
 inline constexpr double branch_depth_radii = 0.5;
 
+/// All that a watch remembers between two steps, as a value.
+struct EventMemory {
+  /// One kind of event: under way or not.
+  struct Episode {
+    bool shown = false;  ///< by this step
+    bool open = false;
+    double quiet_mm = 0.0;  ///< travelled since it was last shown
+    Event sign;
+  };
+  std::array<Episode, event_kinds> episodes{};
+  // Stall: how far the hand has pushed since the tip was last looked at, and where it was then.
+  bool pushing = false;
+  double pushed_mm = 0.0;
+  Eigen::Vector3d tip_then_mm = Eigen::Vector3d::Zero();
+  bool stalled = false;
+  // Branch: the one that the tip is known to be in; -1: of none yet.
+  std::int32_t branch = -1;
+  vessel::CentrelinePlace place;
+};
+
 /// Turns what single steps show into events that are told once, when they begin.
 ///
 /// Stands above the step: it reads commands, reports and snapshots, and changes nothing. It is a value: saved and put
@@ -42,17 +62,16 @@ class EventWatch {
   void reserve(std::size_t points, double length_mm);
 
   /// The events that began in the step just taken; valid until the next call.
-  [[nodiscard]] std::span<const Event> after(const Command& command, const StepReport& report,
+  [[nodiscard]] std::span<const Event> after(const Command& commanded, const StepReport& report,
                                              const Snapshot& snapshot);
 
+  [[nodiscard]] const EventMemory& memory() const { return memory_; }
+  /// Goes on as the watch that remembered this, of the same vessel.
+  /// @throws base::InputError when the vessel lacks a branch that it names
+  void restore(const EventMemory& memory);
+
  private:
-  /// One kind of event: under way or not.
-  struct Episode {
-    bool shown = false;  ///< by this step
-    bool open = false;
-    double quiet_mm = 0.0;  ///< travelled since it was last shown
-    Event sign;
-  };
+  using Episode = EventMemory::Episode;
 
   void show(const Event& sign);
   void watch_stall(const Command& command, const StepReport& report, const Snapshot& snapshot);
@@ -61,16 +80,8 @@ class EventWatch {
 
   std::shared_ptr<const vessel::CentrelineTree> tree_;
   SelfOverlap overlap_;
-  std::array<Episode, event_kinds> episodes_{};
   std::vector<Event> begun_;
-  // Stall: how far the hand has pushed since the tip was last looked at, and where it was then.
-  bool pushing_ = false;
-  double pushed_mm_ = 0.0;
-  Eigen::Vector3d tip_then_mm_ = Eigen::Vector3d::Zero();
-  bool stalled_ = false;
-  // Branch: the one that the tip is known to be in; -1: of none yet.
-  std::int32_t branch_ = -1;
-  vessel::CentrelinePlace place_;
+  EventMemory memory_;
 };
 
 }  // namespace endowire::sim

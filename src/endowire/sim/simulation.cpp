@@ -62,6 +62,7 @@ class Simulation::Impl {
        SimulationSpec spec);
 
   const StepReport& step(const Command& command);
+  void require_fitting(const State& state) const;
   void restore(const State& state);
   void save(State& out) const;
   void snapshot(Snapshot& out) const;
@@ -212,8 +213,12 @@ void Simulation::Impl::save(State& out) const {
   out.friction.normal_n_per_mm.assign(friction_.normal_n_per_mm.begin(), friction_.normal_n_per_mm.end());
 }
 
+void Simulation::Impl::require_fitting(const State& state) const {
+  require_sound(
+      state, {resolution_.most_rods(), friction_.arc_mm.capacity(), line_.length_mm(), access_.position_mm});
+}
+
 void Simulation::Impl::restore(const State& state) {
-  require_sound(state, resolution_.most_rods(), friction_.arc_mm.capacity());
   const std::size_t rods = state.directors.size();
   if (&state != &state_) state_ = state;
   rod::ChainShape& shape = problem_.shape;
@@ -530,6 +535,7 @@ const State& Simulation::state() const {
   return impl_->state_;
 }
 void Simulation::restore(const State& state) {
+  impl_->require_fitting(state);
   impl_->restore(state);
 }
 int Simulation::most_rods() const {

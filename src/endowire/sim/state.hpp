@@ -33,8 +33,17 @@ struct State {
   [[nodiscard]] std::uint64_t hash() const;
 };
 
+/// What a state has to fit: the wire and its place of entry.
+struct StateLimits {
+  int most_rods = 0;
+  std::size_t most_samples = 0;
+  double wire_length_mm = 0.0;
+  Eigen::Vector3d access_mm = Eigen::Vector3d::Zero();
+};
+
 /// @throws base::InputError naming the part of a state that cannot be: numbers that are not finite, lists that do not belong together or are
-/// too long, arcs that do not ascend, a wire that ends before its last joint.
-void require_sound(const State& state, int most_rods, std::size_t most_samples);
+/// too long, arcs that do not ascend, a wire that ends before its last joint or is longer than it is, rods that are not as long as their
+/// material, a shape that does not end in the sheath.
+void require_sound(const State& state, const StateLimits& limits);
 
 }  // namespace endowire::sim

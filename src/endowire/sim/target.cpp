@@ -27,9 +27,11 @@ const CentrelineBranch& branch_of(const CentrelineTree& tree, std::int32_t index
   return tree.branches()[static_cast<std::size_t>(index)];
 }
 
+/// A branch of this name, or the first stretch of a vessel of this name: whether others leave a vessel, and so cut it into
+/// stretches, may differ from one patient to the next.
 std::int32_t named(const CentrelineTree& tree, const std::string& name) {
-  const std::int32_t branch = tree.branch_named(name);
-  if (branch >= 0) return branch;
+  for (const std::string& one : {name, name + ":1"})
+    if (const std::int32_t branch = tree.branch_named(one); branch >= 0) return branch;
   std::ostringstream known;
   constexpr std::size_t most = 12;
   const std::size_t count = tree.branches().size();

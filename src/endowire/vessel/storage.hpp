@@ -24,6 +24,7 @@ struct StorageKind {
   std::uint64_t magic;    ///< first eight bytes
   std::uint64_t version;  ///< of the format
   const char* what;       ///< for messages: "prepared field"
+  const char* foreign = "it belongs to another mesh or other parameters";  ///< same, of another key
 };
 
 /// Five words stand before the payload: magic, version, key, bytes of the payload, its checksum.
@@ -82,7 +83,7 @@ class StorageReader {
         label_(std::move(label)) {
     if (value<std::uint64_t>() != kind.magic) fail("it does not begin as one");
     if (value<std::uint64_t>() != kind.version) fail("its format is of another version");
-    if (value<std::uint64_t>() != expected_key) fail("it belongs to another mesh or other parameters");
+    if (value<std::uint64_t>() != expected_key) fail(kind.foreign);
     const auto size = value<std::uint64_t>();
     const auto sum = value<std::uint64_t>();
     bytes_ = bytes.subspan(storage_header_bytes);

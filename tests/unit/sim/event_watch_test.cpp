@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <vector>
 
+#include "endowire/base/error.hpp"
 #include "support/hand_made_trees.hpp"
 #include "support/simulations.hpp"
 
@@ -94,6 +97,38 @@ TEST_F(EventWatchTest, AHandThatRestsEndsNothing) {
   report_.events.clear();
   for (int i = 0; i < 100; ++i) step_at({0, 0, hand_mm_}, {0.0, 0.0});
   EXPECT_TRUE(step({sign}).empty());
+}
+
+// Such a command is refused by the step: the hand does not move, so nothing ends and no stall is missed later.
+TEST_F(EventWatchTest, ACommandThatIsNoNumberMovesNothing) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Event sign{EventKind::kink, 2.0, Vector3d::Zero()};
+  EXPECT_EQ(step({sign}).size(), 1U);
+  report_.events.clear();
+  for (const Command& refused : {Command{nan, 0.0}, Command{HUGE_VAL, 0.0}, Command{0.0, nan}})
+    EXPECT_TRUE(step_at({0, 0, hand_mm_}, refused).empty());
+  EXPECT_TRUE(step({sign}).empty()) << "it was under way";
+  std::vector<Event> told;
+  for (int i = 0; i < 20; ++i)
+    for (const Event& e : step_at({0, 0, hand_mm_})) told.push_back(e);
+  EXPECT_EQ(count(told, EventKind::stall), 1);
+}
+
+TEST_F(EventWatchTest, MemoryOfAnotherVesselIsRefused) {
+  EventWatch branched(std::make_shared<const vessel::CentrelineTree>(test::bent_tube_tree()));
+  for (const std::int32_t branch : {-2, 2}) {
+    EventMemory memory = branched.memory();
+    memory.branch = branch;
+    EXPECT_THROW(branched.restore(memory), base::InputError) << branch;
+    memory = branched.memory();
+    memory.place.branch = branch;
+    EXPECT_THROW(branched.restore(memory), base::InputError) << branch;
+  }
+  EventMemory memory = branched.memory();
+  memory.branch = memory.place.branch = 1;
+  branched.restore(memory);
+  EXPECT_EQ(branched.memory().branch, 1);
+  EXPECT_THROW(watch_.restore(memory), base::InputError) << "it has no branches";
 }
 
 TEST_F(EventWatchTest, ATipThatStaysWhileTheHandPushesIsAStall) {
@@ -214,7 +249,8 @@ TEST(EventWatch, SavedAndPutBackInMidRunItTellsTheSame) {
   EXPECT_FALSE(expected.empty());
   Simulation other(test::bent_tube(1.0), test::curved_tip_wire(), test::origin_access(), {});
   other.restore(saved);
-  EventWatch other_watch = saved_watch;
+  EventWatch other_watch(tree);
+  other_watch.restore(saved_watch.memory());
   EXPECT_EQ(play(other, other_watch, 67, 200), expected);
   EXPECT_EQ(other.state_hash(), original.state_hash());
 }

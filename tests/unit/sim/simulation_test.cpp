@@ -319,6 +319,13 @@ TEST(Restore, RefusesAnInconsistentState) {
   refused([&](State& s) { s.friction.normal_n_per_mm[1] = not_a_number; });
   refused([&](State& s) { s.drift.joints_mm[1].z() = not_a_number; });
   refused([](State& s) { s.inserted_mm = s.arc_mm.back(); });
+  refused([](State& s) { s.inserted_mm = 1e9; });
+  refused([](State& s) { s.joints_mm[3].x() += 1e9; });  // would be sampled without end
+  refused([](State& s) { s.joints_mm[3] = s.joints_mm[2]; });
+  refused([](State& s) {
+    for (Vector3d& joint : s.joints_mm) joint.x() += 50.0;
+  });
+  refused([](State& s) { s.directors[2] *= 2.0; });
   refused([](State& s) { s.drift.joints_mm.pop_back(); });
   refused([](State& s) { std::swap(s.drift.arc_mm[1], s.drift.arc_mm[2]); });
   refused([](State& s) {  // more rods than this wire has

@@ -32,6 +32,14 @@ TEST_F(TargetTest, LiesBeyondTheOstiumNotTheBifurcation) {
   EXPECT_EQ(target.radius_mm, 2.0);
 }
 
+TEST_F(TargetTest, AVesselMeansItsFirstStretch) {
+  TargetSpec spec = side(85.0);
+  spec.branch = "1.1";
+  const Target target = find_target(tree_, spec);
+  EXPECT_EQ(target.branch, 2);
+  EXPECT_EQ(target.position_mm, find_target(tree_, side(85.0)).position_mm);
+}
+
 TEST_F(TargetTest, GoesOnAlongTheSameVessel) {
   const Target target = find_target(tree_, side(85.0));
   EXPECT_EQ(target.goal.branch, 3);
