@@ -145,10 +145,12 @@ class Reset(unittest.TestCase):
             wire.reset(1.5)
 
     def test_a_place_in_the_cache_is_left_as_it_was(self):
-        kept = sorted(pathlib.Path(CACHE).rglob("*"))
-        wire = simulation()
-        wire.reset(numpy.int64(11))  # NumPy's integers are seeds too
-        self.assertEqual(sorted(pathlib.Path(CACHE).rglob("*")), kept)
+        with tempfile.TemporaryDirectory() as cache:
+            wire = endowire.Simulation(SCENE, cache_folder=cache)
+            kept = sorted(pathlib.Path(cache).rglob("*"))
+            self.assertEqual(len(kept), 2)
+            wire.reset(numpy.int64(11))  # NumPy's integers are seeds too
+            self.assertEqual(sorted(pathlib.Path(cache).rglob("*")), kept)
 
     def test_a_seed_draws_the_vessel_and_the_turn(self):
         wire = simulation()
