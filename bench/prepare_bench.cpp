@@ -10,9 +10,11 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
 
 #include "endowire/vessel/centreline.hpp"
+#include "endowire/vessel/hash.hpp"
 #include "endowire/vessel/mesh_field.hpp"
 #include "endowire/vessel/scale.hpp"
 #include "endowire/vessel/stl.hpp"
@@ -43,12 +45,25 @@ class Stages {
     fmt::print("  {:<22} {:>6.2f} s   peak so far {:>4.0f} MB\n", name, now - last_, peak_mb());
     last_ = now;
   }
+  /// What passed since then is no part of any stage.
+  void skip() {
+    const double now = cpu_s();
+    begin_ += now - last_;
+    last_ = now;
+  }
   [[nodiscard]] double total_s() const { return last_ - begin_; }
 
  private:
   double begin_ = cpu_s();
   double last_ = begin_;
 };
+
+/// Tells whether two builds prepare the same bits.
+std::uint64_t hash_of(std::span<const std::byte> bytes) {
+  vessel::ContentHash hash;
+  hash.add_bytes(bytes.data(), bytes.size());
+  return hash.value();
+}
 
 void prepare(std::vector<std::byte> bytes, const std::string& name) {
   Stages stages;
@@ -60,10 +75,13 @@ void prepare(std::vector<std::byte> bytes, const std::string& name) {
   const vessel::RepairedMesh mesh = vessel::repair(vessel::in_millimetres(std::move(soup), unit.unit), name);
   stages.end("repair");
   vessel::FieldFacts facts;
+  std::uint64_t field_hash = 0;
   {
     const vessel::MeshField field = vessel::MeshField::build(mesh);
     facts = field.facts();
     stages.end("distance field");
+    field_hash = hash_of(field.serialise());
+    stages.skip();
   }
   const vessel::CentrelineTree tree = vessel::extract_centrelines(mesh);
   stages.end("centrelines");
@@ -75,6 +93,8 @@ void prepare(std::vector<std::byte> bytes, const std::string& name) {
       static_cast<double>(facts.bytes) / 1e6, facts.finest_spacing_mm, facts.coarsest_spacing_mm,
       facts.error_p50_mm, facts.error_p99_mm, facts.error_max_mm,
       facts.refinement_complete ? "complete" : "stopped");
+  fmt::print("  hash of the field {:016x}, of the centrelines {:016x}\n", field_hash,
+             hash_of(tree.serialise(0)));
   fmt::print("  lumen {:.2f} mm (5 %) to {:.2f} mm (95 % of the wall)\n",
              facts.lumen_diameter_percentiles_mm[0], facts.lumen_diameter_percentiles_mm[4]);
   fmt::print("  in all {:.1f} s on one core (limit 20), {:.0f} MB (limit 500)\n", stages.total_s(),
@@ -93,7 +113,7 @@ int main(int count, char** arguments) {
       std::filesystem::temp_directory_path() / fmt::format("endowire-bench-tree-{}.stl", ::getpid());
   const pid_t maker = ::fork();
   if (maker == 0) {
-    constexpr double spacing_mm = 0.17;
+    constexpr double spacing_mm = 0.23;
     const std::vector<std::byte> bytes =
         vessel::write_binary_stl(test::surface_of(test::branching_tree({}), spacing_mm));
     std::ofstream(file, std::ios::binary)

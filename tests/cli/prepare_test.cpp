@@ -1,6 +1,8 @@
 // Any file to a surface, and on to a simulation, with what was decided said.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "program.hpp"
@@ -153,6 +155,23 @@ opening = 2
 }
 
 #endif
+
+// As the test of replays, for what is prepared: breaks with a fused or reordered sum in one of the kernels.
+TEST(Inspect, PreparesTheSameBytesWithEveryInstructionSet) {
+  const TemporaryFolder folder;
+  test::write_text(folder / "v.stl", test::tube_stl(4.0, 60.0));
+  const auto prepared = [&](const std::string& cache, const std::string& environment) {
+    const Outcome outcome = run_endowire(folder, {"inspect", "v.stl", "--cache", cache}, environment);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / cache))
+      files[entry.path().filename()] = test::read_text(entry.path());
+    return files;
+  };
+  const std::map<std::string, std::string> own = prepared("own", "");
+  EXPECT_EQ(own.size(), 2U);
+  EXPECT_TRUE(own == prepared("plain", "ENDOWIRE_ISA=sse2"));
+}
 
 TEST(Inspect, DrawsAContactSheet) {
   const TemporaryFolder folder;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -10,16 +11,17 @@ namespace {
 
 using Eigen::Vector3d;
 
-double box_distance2(const Vector3d& p, const Vector3d& low, const Vector3d& high) {
-  double sum = 0.0;
-  for (int k = 0; k < 3; ++k) {
-    const double d = std::max({low[k] - p[k], 0.0, p[k] - high[k]});
-    sum += d * d;
-  }
-  return sum;
+/// Parts of the largest coordinate, or of a length, by which bounds are widened: more than rounding to single precision takes.
+constexpr double widening = 1e-6;
+/// A triangle whose corners lie further off the plane of its normal is a sliver: its bound is a ball.
+constexpr double flat_mm = 5e-10;
+
+float overstated(double value) {
+  return static_cast<float>(value * (1.0 + widening));
 }
 
-constexpr std::size_t stack_size = 128;  // depth of a median-split tree of 2³¹ triangles is below 64
+constexpr std::size_t stack_size =
+    128;  // a tree of 2³¹ triangles is at most 12 nodes deep, each leaves 7 parts behind
 
 }  // namespace
 
@@ -68,162 +70,262 @@ double nearest_on_triangle(const Vector3d& p, const Vector3d& a, const Vector3d&
   return (p - nearest).squaredNorm();
 }
 
-TriangleBvh::TriangleBvh(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.triangles.size()) {
-  std::iota(order_.begin(), order_.end(), 0);
-  std::vector<Vector3d> centres(mesh.triangles.size());
-  for (std::size_t t = 0; t < centres.size(); ++t)
-    centres[t] = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0;
-  nodes_.reserve(mesh.triangles.size());
-  if (!order_.empty()) build(0, static_cast<std::int32_t>(order_.size()), centres);
+/// Halves by medians along the longest side, thrice for a node.
+class TriangleBvh::Builder {
+ public:
+  explicit Builder(TriangleBvh& bvh) : bvh_(bvh), mesh_(bvh.mesh_), order_(mesh_.triangles.size()) {
+    std::iota(order_.begin(), order_.end(), 0);
+    centres_.resize(order_.size());
+    for (std::size_t t = 0; t < centres_.size(); ++t)
+      centres_[t] = (mesh_.corner(t, 0) + mesh_.corner(t, 1) + mesh_.corner(t, 2)) / 3.0;
+    const Eigen::AlignedBox3d box = bounds_mm(mesh_);
+    bvh_.origin_mm_ = box.center();
+    bvh_.extent_mm_ = 0.5 * box.sizes().maxCoeff();
+    bvh_.leaves_.reserve(order_.size() / 6 + 1);
+    bvh_.nodes_.reserve(order_.size() / 40 + 1);
+    add_node({0, static_cast<std::int32_t>(order_.size())});
+  }
+
+ private:
+  static std::int32_t size(const Range& range) { return range.end - range.begin; }
+
+  std::int32_t add_node(const Range& range) {
+    const auto index = bvh_.nodes_.size();
+    bvh_.nodes_.emplace_back();
+    std::array<Range, bvh_width> parts{range};
+    std::size_t count = 1;
+    while (count < bvh_width) {
+      const auto largest = std::max_element(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(count),
+                                            [](const Range& a, const Range& b) { return size(a) < size(b); });
+      if (size(*largest) <= static_cast<std::int32_t>(bvh_width)) break;
+      const std::int32_t middle = halve(*largest);
+      parts[count++] = {middle, largest->end};
+      largest->end = middle;
+    }
+    bvh_.nodes_[index].used = (1U << count) - 1U;
+    for (std::size_t i = 0; i < count; ++i) {
+      bound(bvh_.nodes_[index].boxes, i, parts[i]);
+      const std::int32_t number = size(parts[i]) <= static_cast<std::int32_t>(bvh_width)
+                                      ? -1 - add_leaf(parts[i])
+                                      : add_node(parts[i]);
+      bvh_.nodes_[index].part[i] = number;
+    }
+    return static_cast<std::int32_t>(index);
+  }
+
+  std::int32_t halve(const Range& range) {
+    Eigen::AlignedBox3d box;
+    for (std::int32_t i = range.begin; i < range.end; ++i) box.extend(centres_[at(i)]);
+    Eigen::Index axis = 0;
+    box.sizes().maxCoeff(&axis);
+    constexpr auto width = static_cast<std::int32_t>(bvh_width);
+    const std::int32_t leaves = (size(range) + width - 1) / width;
+    const std::int32_t middle = range.begin + (leaves + 1) / 2 * width;  // all leaves but the last are full
+    std::nth_element(order_.begin() + range.begin, order_.begin() + middle, order_.begin() + range.end,
+                     [&](std::int32_t i, std::int32_t j) {
+                       const double a = centres_[static_cast<std::size_t>(i)][axis];
+                       const double b = centres_[static_cast<std::size_t>(j)][axis];
+                       return a < b || (a == b && i < j);
+                     });
+    return middle;
+  }
+
+  void bound(EightBoxes& boxes, std::size_t i, const Range& range) const {
+    Eigen::AlignedBox3d box;
+    for (std::int32_t n = range.begin; n < range.end; ++n)
+      for (std::size_t k = 0; k < 3; ++k) box.extend(mesh_.corner(at(n), k));
+    const double margin_mm = widening * bvh_.extent_mm_;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto axis = static_cast<Eigen::Index>(k);
+      boxes.low[k][i] = static_cast<float>(box.min()[axis] - bvh_.origin_mm_[axis] - margin_mm);
+      boxes.high[k][i] = static_cast<float>(box.max()[axis] - bvh_.origin_mm_[axis] + margin_mm);
+    }
+  }
+
+  std::int32_t add_leaf(const Range& range) {
+    Leaf& leaf = bvh_.leaves_.emplace_back();
+    leaf.used = (1U << static_cast<unsigned>(size(range))) - 1U;
+    for (std::int32_t i = range.begin; i < range.end; ++i) {
+      const auto place = static_cast<std::size_t>(i - range.begin);
+      leaf.triangle[place] = order_[static_cast<std::size_t>(i)];
+      surround(leaf.discs, place, at(i));
+    }
+    return static_cast<std::int32_t>(bvh_.leaves_.size() - 1);
+  }
+
+  void surround(EightDiscs& discs, std::size_t i, std::size_t t) const {
+    Vector3d normal = mesh_.area_normal(t).stableNormalized();
+    double radius2 = 0.0;
+    double off_mm = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector3d to_corner = mesh_.corner(t, k) - centres_[t];
+      radius2 = std::max(radius2, to_corner.squaredNorm());
+      off_mm = std::max(off_mm, std::abs(normal.dot(to_corner)));
+    }
+    if (!(off_mm <= flat_mm)) normal.setZero();
+    const Vector3d middle = centres_[t] - bvh_.origin_mm_;
+    for (std::size_t k = 0; k < 3; ++k) {
+      discs.middle[k][i] = static_cast<float>(middle[static_cast<Eigen::Index>(k)]);
+      discs.normal[k][i] = static_cast<float>(normal[static_cast<Eigen::Index>(k)]);
+    }
+    discs.radius[i] = overstated(std::sqrt(radius2));
+  }
+
+  [[nodiscard]] std::size_t at(std::int32_t i) const {
+    return static_cast<std::size_t>(order_[static_cast<std::size_t>(i)]);
+  }
+
+  TriangleBvh& bvh_;
+  const TriangleMesh& mesh_;
+  std::vector<std::int32_t> order_;
+  std::vector<Vector3d> centres_;
+};
+
+TriangleBvh::TriangleBvh(const TriangleMesh& mesh) : mesh_(mesh), kernels_(bvh_kernels()) {
+  if (!mesh.triangles.empty()) Builder(*this);
 }
 
-std::int32_t TriangleBvh::build(std::int32_t begin, std::int32_t end, const std::vector<Vector3d>& centres) {
-  Eigen::AlignedBox3d box;
-  Eigen::AlignedBox3d centre_box;
-  for (std::int32_t i = begin; i < end; ++i) {
-    const auto t = static_cast<std::size_t>(order_[static_cast<std::size_t>(i)]);
-    for (std::size_t k = 0; k < 3; ++k) box.extend(mesh_.corner(t, k));
-    centre_box.extend(centres[t]);
-  }
-  const auto node = static_cast<std::int32_t>(nodes_.size());
-  nodes_.push_back({box.min(), box.max(), begin, end - begin});
-  if (end - begin <= 3) return node;
-  int axis = 0;
-  centre_box.sizes().maxCoeff(&axis);
-  const std::int32_t middle = begin + (end - begin) / 2;
-  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                   [&](std::int32_t i, std::int32_t j) {
-                     const double a = centres[static_cast<std::size_t>(i)][axis];
-                     const double b = centres[static_cast<std::size_t>(j)][axis];
-                     return a < b || (a == b && i < j);
-                   });
-  build(begin, middle, centres);
-  const std::int32_t right = build(middle, end, centres);
-  nodes_[static_cast<std::size_t>(node)].first = right;
-  nodes_[static_cast<std::size_t>(node)].count = 0;
-  return node;
+std::array<float, 3> TriangleBvh::near_origin(const Vector3d& point_mm) const {
+  const Vector3d p = point_mm - origin_mm_;
+  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
 }
+
+namespace {
+
+/// Parts of a tree that are still to be visited, those that promise most on top.
+class Ahead {
+ public:
+  struct Entry {
+    float bound;
+    std::int32_t part;
+  };
+  [[nodiscard]] bool empty() const { return count_ == 0; }
+  Entry pop() { return entries_[--count_]; }
+  /// Adds the parts of a node that bits mark, the one with the smallest bound last.
+  void push(unsigned bits, const EightFloats& bounds, const std::array<std::int32_t, bvh_width>& parts) {
+    const std::size_t first = count_;
+    for (; bits != 0; bits &= bits - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(bits));
+      std::size_t place = count_++;
+      for (; place > first && entries_[place - 1].bound < bounds[i]; --place)
+        entries_[place] = entries_[place - 1];
+      entries_[place] = {bounds[i], parts[i]};
+    }
+  }
+
+ private:
+  std::array<Entry, stack_size> entries_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace
 
 NearestPoint TriangleBvh::nearest(const Vector3d& p, double within_mm, double enough_mm) const {
   NearestPoint best;
   if (nodes_.empty()) return best;
+  const std::array<float, 3> point = near_origin(p);
+  const double margin_mm = widening * (extent_mm_ + (p - origin_mm_).cwiseAbs().maxCoeff());
   double best2 = within_mm * within_mm;
+  float within2 = overstated(best2);
+  float reach = overstated(within_mm + margin_mm);
   const double enough2 = enough_mm * enough_mm;
-  bool enough = false;
-  struct Entry {
-    std::int32_t node;
-    double distance2;
+  const auto attempt = [&](std::int32_t t) {
+    const auto index = static_cast<std::size_t>(t);
+    Vector3d q;
+    std::uint8_t feature = 0;
+    const double d2 = nearest_on_triangle(p, mesh_.corner(index, 0), mesh_.corner(index, 1),
+                                          mesh_.corner(index, 2), q, feature);
+    if (d2 > best2 || (d2 == best2 && best.triangle >= 0 && t > best.triangle)) return;
+    best2 = d2;
+    best.point_mm = q;
+    best.triangle = t;
+    best.feature = feature;
   };
-  std::array<Entry, stack_size> stack;
-  std::size_t top = 0;
-  stack[top++] = {0, box_distance2(p, nodes_[0].low, nodes_[0].high)};
-  while (top > 0 && !enough) {
-    const Entry entry = stack[--top];
-    if (entry.distance2 > best2) continue;
-    const Node& node = nodes_[static_cast<std::size_t>(entry.node)];
-    if (node.count == 0) {
-      const std::int32_t left = entry.node + 1;
-      const std::int32_t right = node.first;
-      const Node& l = nodes_[static_cast<std::size_t>(left)];
-      const Node& r = nodes_[static_cast<std::size_t>(right)];
-      const double dl = box_distance2(p, l.low, l.high);
-      const double dr = box_distance2(p, r.low, r.high);
-      const bool left_first = dl <= dr;
-      const Entry further = left_first ? Entry{right, dr} : Entry{left, dl};
-      const Entry nearer = left_first ? Entry{left, dl} : Entry{right, dr};
-      if (further.distance2 <= best2) stack[top++] = further;
-      if (nearer.distance2 <= best2) stack[top++] = nearer;
-      continue;
-    }
-    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-      const std::int32_t t = order_[static_cast<std::size_t>(i)];
-      const auto index = static_cast<std::size_t>(t);
-      Vector3d q;
-      std::uint8_t feature = 0;
-      const double d2 = nearest_on_triangle(p, mesh_.corner(index, 0), mesh_.corner(index, 1),
-                                            mesh_.corner(index, 2), q, feature);
-      if (d2 < best2 || (d2 == best2 && (best.triangle < 0 || t < best.triangle))) {
-        best2 = d2;
-        best.point_mm = q;
-        best.triangle = t;
-        best.feature = feature;
+  Ahead ahead;
+  EightFloats bounds;
+  std::int32_t part = 0;
+  for (;;) {
+    if (part >= 0) {
+      const Node& node = nodes_[static_cast<std::size_t>(part)];
+      ahead.push(node.used & kernels_.near_boxes(node.boxes, point, within2, bounds), bounds, node.part);
+    } else {
+      const Leaf& leaf = leaves_[static_cast<std::size_t>(-1 - part)];
+      const double before2 = best2;
+      unsigned bits = leaf.used & kernels_.near_discs(leaf.discs, point, reach);
+      for (; bits != 0; bits &= bits - 1)
+        attempt(leaf.triangle[static_cast<std::size_t>(std::countr_zero(bits))]);
+      if (best2 < before2) {
+        within2 = overstated(best2);
+        reach = overstated(std::sqrt(best2) + margin_mm);
+        if (best2 < enough2) break;
       }
     }
-    enough = best.triangle >= 0 && best2 < enough2;
+    Ahead::Entry next{};
+    do {
+      if (ahead.empty()) {
+        if (best.triangle >= 0) best.distance_mm = std::sqrt(best2);
+        return best;
+      }
+      next = ahead.pop();
+    } while (next.bound > within2);
+    part = next.part;
   }
-  if (best.triangle >= 0) best.distance_mm = std::sqrt(best2);
+  best.distance_mm = std::sqrt(best2);
   return best;
 }
 
-template <class Enters, class Visit>
-void TriangleBvh::walk(const Enters& enters, const Visit& visit) const {
-  if (nodes_.empty()) return;
-  std::array<std::int32_t, stack_size> stack;
-  std::size_t top = 0;
-  stack[top++] = 0;
-  while (top > 0) {
-    const std::int32_t at = stack[--top];
-    const Node& node = nodes_[static_cast<std::size_t>(at)];
-    if (!enters(node)) continue;
-    if (node.count == 0) {
-      stack[top++] = node.first;
-      stack[top++] = at + 1;
+bool TriangleBvh::touching(const Eigen::AlignedBox3d& box, std::vector<std::int32_t>& out,
+                           std::size_t most) const {
+  out.clear();
+  if (nodes_.empty()) return true;
+  const Vector3d low = box.min() - origin_mm_;
+  const Vector3d high = box.max() - origin_mm_;
+  std::array<std::int32_t, stack_size> ahead;
+  std::size_t count = 0;
+  ahead[count++] = 0;
+  while (count > 0) {
+    const std::int32_t part = ahead[--count];
+    if (part >= 0) {
+      const Node& node = nodes_[static_cast<std::size_t>(part)];
+      for (unsigned bits = node.used; bits != 0; bits &= bits - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(bits));
+        bool touches = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const auto axis = static_cast<Eigen::Index>(k);
+          touches = touches && low[axis] <= static_cast<double>(node.boxes.high[k][i]) &&
+                    high[axis] >= static_cast<double>(node.boxes.low[k][i]);
+        }
+        if (touches) ahead[count++] = node.part[i];
+      }
       continue;
     }
-    for (std::int32_t i = node.first; i < node.first + node.count; ++i)
-      visit(order_[static_cast<std::size_t>(i)]);
+    const Leaf& leaf = leaves_[static_cast<std::size_t>(-1 - part)];
+    for (unsigned bits = leaf.used; bits != 0; bits &= bits - 1) {
+      const std::int32_t t = leaf.triangle[static_cast<std::size_t>(std::countr_zero(bits))];
+      Eigen::AlignedBox3d own;
+      for (std::size_t k = 0; k < 3; ++k) own.extend(mesh_.corner(static_cast<std::size_t>(t), k));
+      if (box.intersects(own)) out.push_back(t);
+    }
+    if (out.size() > most) return false;
   }
-}
-
-void TriangleBvh::collect(const Vector3d& centre, double radius_mm, std::vector<Candidate>& out) const {
-  out.clear();
-  const double radius2 = radius_mm * radius_mm;
-  walk([&](const Node& node) { return box_distance2(centre, node.low, node.high) <= radius2; },
-       [&](std::int32_t t) {
-         const auto index = static_cast<std::size_t>(t);
-         Vector3d q;
-         std::uint8_t feature = 0;
-         const double d2 = nearest_on_triangle(centre, mesh_.corner(index, 0), mesh_.corner(index, 1),
-                                               mesh_.corner(index, 2), q, feature);
-         if (d2 <= radius2) out.push_back({std::sqrt(d2), t});
-       });
-  std::sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) {
-    return a.distance_mm < b.distance_mm || (a.distance_mm == b.distance_mm && a.triangle < b.triangle);
-  });
-}
-
-void TriangleBvh::touching(const Eigen::AlignedBox3d& box, std::vector<std::int32_t>& out) const {
-  out.clear();
-  walk([&](const Node& node) { return box.intersects(Eigen::AlignedBox3d(node.low, node.high)); },
-       [&](std::int32_t t) {
-         Eigen::AlignedBox3d own;
-         for (std::size_t k = 0; k < 3; ++k) own.extend(mesh_.corner(static_cast<std::size_t>(t), k));
-         if (box.intersects(own)) out.push_back(t);
-       });
+  return true;
 }
 
 TriangleBvh::Hit TriangleBvh::cast(const Vector3d& origin, const Vector3d& direction, double from_mm,
                                    double to_mm) const {
   Hit hit;
-  const Vector3d inverse = direction.cwiseInverse();
+  if (nodes_.empty()) return hit;
+  BvhRay ray{near_origin(origin), {}, {}, static_cast<float>(from_mm * (1.0 - widening)), overstated(to_mm)};
+  constexpr float steepest = 1e30F;
+  for (std::size_t k = 0; k < 3; ++k) {
+    ray.direction[k] = static_cast<float>(direction[static_cast<Eigen::Index>(k)]);
+    ray.inverse[k] = std::abs(ray.direction[k]) > 1.0F / steepest ? 1.0F / ray.direction[k] : steepest;
+  }
+  const auto margin =
+      static_cast<float>(widening * (extent_mm_ + (origin - origin_mm_).cwiseAbs().maxCoeff()));
   double nearest = to_mm;
-  const auto enters = [&](const Node& node) {
-    double near = from_mm;
-    double far = nearest;
-    for (int k = 0; k < 3; ++k) {
-      if (direction[k] == 0.0) {
-        if (origin[k] < node.low[k] || origin[k] > node.high[k]) return false;
-        continue;
-      }
-      const double a = (node.low[k] - origin[k]) * inverse[k];
-      const double b = (node.high[k] - origin[k]) * inverse[k];
-      near = std::max(near, std::min(a, b));
-      far = std::min(far, std::max(a, b));
-    }
-    return near <= far;
-  };
   // Möller & Trumbore 1997
-  const auto visit = [&](std::int32_t t) {
+  const auto attempt = [&](std::int32_t t) {
     const auto index = static_cast<std::size_t>(t);
     const Vector3d e1 = mesh_.corner(index, 1) - mesh_.corner(index, 0);
     const Vector3d e2 = mesh_.corner(index, 2) - mesh_.corner(index, 0);
@@ -241,8 +343,27 @@ TriangleBvh::Hit TriangleBvh::cast(const Vector3d& origin, const Vector3d& direc
     nearest = along;
     hit = {along, t};
   };
-  walk(enters, visit);
-  return hit;
+  Ahead ahead;
+  EightFloats enters;
+  std::int32_t part = 0;
+  for (;;) {
+    if (part >= 0) {
+      const Node& node = nodes_[static_cast<std::size_t>(part)];
+      ahead.push(node.used & kernels_.hit_boxes(node.boxes, ray, enters), enters, node.part);
+    } else {
+      const Leaf& leaf = leaves_[static_cast<std::size_t>(-1 - part)];
+      unsigned bits = leaf.used & kernels_.hit_discs(leaf.discs, ray, margin);
+      for (; bits != 0; bits &= bits - 1)
+        attempt(leaf.triangle[static_cast<std::size_t>(std::countr_zero(bits))]);
+      ray.end = overstated(nearest);
+    }
+    Ahead::Entry next{};
+    do {
+      if (ahead.empty()) return hit;
+      next = ahead.pop();
+    } while (next.bound > ray.end);
+    part = next.part;
+  }
 }
 
 }  // namespace endowire::vessel

@@ -2,10 +2,12 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
+#include "endowire/vessel/bvh_kernels.hpp"
 #include "endowire/vessel/mesh.hpp"
 
 namespace endowire::vessel {
@@ -26,19 +28,14 @@ struct NearestPoint {
                                          const Eigen::Vector3d& b, const Eigen::Vector3d& c,
                                          Eigen::Vector3d& nearest, std::uint8_t& feature);
 
-/// A bounding volume tree over the triangles of a mesh, which it keeps a reference to.
+/// A bounding volume tree over the triangles of a mesh, which it keeps a reference to. Its bounds are in single precision, widened;
+/// every answer is exact in double precision.
 class TriangleBvh {
  public:
   struct Hit {
     double distance_mm = std::numeric_limits<double>::infinity();
     std::int32_t triangle = -1;
   };
-  /// One triangle near a ball, with its exact distance to the centre.
-  struct Candidate {
-    double distance_mm;
-    std::int32_t triangle;
-  };
-
   explicit TriangleBvh(const TriangleMesh& mesh);
 
   /// Nearest point of the surface no further than `within_mm`; of equals the triangle with the lowest index.
@@ -48,30 +45,40 @@ class TriangleBvh {
                                      double within_mm = std::numeric_limits<double>::infinity(),
                                      double enough_mm = 0.0) const;
 
-  /// All triangles no further than `radius_mm` from `centre_mm`, nearest first.
-  void collect(const Eigen::Vector3d& centre_mm, double radius_mm, std::vector<Candidate>& out) const;
-
-  /// All triangles whose own boxes touch a box, in no order.
-  void touching(const Eigen::AlignedBox3d& box_mm, std::vector<std::int32_t>& out) const;
+  /// All triangles whose own boxes touch a box, in no order, if they are no more than `most`.
+  /// @return false when they are more; `out` is then of no use
+  bool touching(const Eigen::AlignedBox3d& box_mm, std::vector<std::int32_t>& out,
+                std::size_t most = std::numeric_limits<std::size_t>::max()) const;
 
   /// First triangle along a ray between `from_mm` and `to_mm` of its length; `direction` has length one.
   [[nodiscard]] Hit cast(const Eigen::Vector3d& origin_mm, const Eigen::Vector3d& direction, double from_mm,
                          double to_mm) const;
 
  private:
+  /// Eight parts of the mesh; a part with a number below zero is a leaf, -1 - number.
   struct Node {
-    Eigen::Vector3d low, high;
-    std::int32_t first;  ///< of the triangles in order_, or the right child (the left one follows its parent)
-    std::int32_t count;  ///< of triangles; 0 for an inner node
+    EightBoxes boxes;
+    std::array<std::int32_t, bvh_width> part;
+    unsigned used;  ///< a bit for each part there is
   };
-  /// Visits the triangles of all leaves whose boxes, and those of all nodes above them, are entered.
-  template <class Enters, class Visit>
-  void walk(const Enters& enters, const Visit& visit) const;
-  std::int32_t build(std::int32_t begin, std::int32_t end, const std::vector<Eigen::Vector3d>& centres);
+  struct Leaf {
+    EightDiscs discs;
+    std::array<std::int32_t, bvh_width> triangle;
+    unsigned used;
+  };
+  struct Range {
+    std::int32_t begin, end;  ///< of the triangles in order of the tree
+  };
+  class Builder;
+
+  [[nodiscard]] std::array<float, 3> near_origin(const Eigen::Vector3d& point_mm) const;
 
   const TriangleMesh& mesh_;
-  std::vector<Node> nodes_;
-  std::vector<std::int32_t> order_;
+  const BvhKernels& kernels_;
+  Eigen::Vector3d origin_mm_ = Eigen::Vector3d::Zero();  ///< of coordinates in single precision
+  double extent_mm_ = 0.0;                               ///< the largest of them
+  std::vector<Node> nodes_;                              ///< the first is the root; none without triangles
+  std::vector<Leaf> leaves_;
 };
 
 }  // namespace endowire::vessel

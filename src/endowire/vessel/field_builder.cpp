@@ -2,12 +2,14 @@
 #include <cmath>
 #include <numeric>
 #include <queue>
+#include <span>
 
 #include "endowire/base/contract.hpp"
 #include "endowire/vessel/field_probes.hpp"
 #include "endowire/vessel/hash.hpp"
 #include "endowire/vessel/lumen.hpp"
 #include "endowire/vessel/mesh_field.hpp"
+#include "endowire/vessel/near_triangles.hpp"
 #include "endowire/vessel/random.hpp"
 #include "endowire/vessel/surface.hpp"
 #include "endowire/vessel/winding.hpp"
@@ -23,7 +25,6 @@ constexpr double base_spacing_limit_mm = 1.6;    // near walls; what error_targe
 constexpr double base_cells_per_radius = 2.5;    // so that every lumen is seen at all
 constexpr double radius_floor_spacing_mm = 0.2;  // finer only where the error asks for it
 constexpr double screen_fraction = 1.0;  // cells straighter than this part of the tolerance are not tested
-constexpr std::size_t long_list = 1000;  // candidates that take longer to scan than the tree to search
 constexpr double deep_mm = 3.0;          // from the wall: no instrument touches it from there
 constexpr std::size_t max_roots = 2'000'000;   // 8 MB of references; a longer vessel gets larger root cells
 constexpr std::size_t report_points = 50'000;  // of the final error measurement
@@ -41,7 +42,10 @@ class MeshFieldBuilder {
       : parameters_(parameters),
         closed_(close_surface(repaired, parameters.virtual_tube_mm)),
         surface_(closed_.mesh),
-        lumen_(measure_lumen(surface_, closed_.wall_triangles)) {}
+        lumen_(measure_lumen(surface_, closed_.wall_triangles)) {
+    radius_code_.reserve(lumen_.radius_mm.size());
+    for (double radius_mm : lumen_.radius_mm) radius_code_.push_back(MeshField::encode_radius(radius_mm));
+  }
 
   MeshField build(std::uint64_t key) {
     field_.key_ = key;
@@ -82,6 +86,11 @@ class MeshFieldBuilder {
   Vector3d origin_mm(const Cell& cell) const {
     return field_.origin_mm_ + finest_mm_ * Vector3d(cell.at[0], cell.at[1], cell.at[2]);
   }
+  Vector3d middle_mm(const Cell& cell) const {
+    return origin_mm(cell) + Vector3d::Constant(0.5 * size_mm(cell));
+  }
+  /// From the middle of a cell to its corners.
+  double reach_mm(const Cell& cell) const { return 0.5 * std::sqrt(3.0) * size_mm(cell); }
   Cell root_cell(std::size_t i) const {
     const auto ny = static_cast<std::size_t>(field_.roots_along_[1]);
     const auto nz = static_cast<std::size_t>(field_.roots_along_[2]);
@@ -141,18 +150,25 @@ class MeshFieldBuilder {
 
   // --- the octree
 
+  /// The cell before this one mostly lies near by: it tells how far the surface can be.
+  ExactSurface::Sample nearest_to_middle(const Cell& cell) {
+    const Vector3d middle = middle_mm(cell);
+    const double within_mm = last_distance_mm_ + (middle - last_middle_mm_).norm();
+    const ExactSurface::Sample s = surface_.at(middle, within_mm * (1.0 + 1e-9) + 1e-9);
+    last_middle_mm_ = middle;
+    last_distance_mm_ = std::abs(s.distance_mm);
+    return s;
+  }
+
   void prepare(const Cell& cell) {
-    const double size = size_mm(cell);
-    const double reach = 0.5 * std::sqrt(3.0) * size;
-    const Vector3d centre = origin_mm(cell) + Vector3d::Constant(0.5 * size);
-    const ExactSurface::Sample s = surface_.at(centre);
-    if (s.distance_mm < -(parameters_.band_outside_mm + reach)) {
-      add_far(cell, centre, s);
+    const ExactSurface::Sample s = nearest_to_middle(cell);
+    if (s.distance_mm < -(parameters_.band_outside_mm + reach_mm(cell))) {
+      add_far(cell, middle_mm(cell), s);
       return;
     }
     const auto t = static_cast<std::size_t>(s.triangle);
-    const bool near = std::abs(s.distance_mm) < reach;
-    const double spacing = size / MeshField::cells;
+    const bool near = std::abs(s.distance_mm) < reach_mm(cell);
+    const double spacing = size_mm(cell) / MeshField::cells;
     if (cell.level > 0 && near && spacing > base_spacing_mm(lumen_.radius_mm[t]) * (1.0 + 1e-9)) {
       split(cell);
       return;
@@ -206,7 +222,8 @@ class MeshFieldBuilder {
     }
     cells_[index] = cell;
     reference(cell.slot) = static_cast<MeshField::Reference>(-1 - 2 * static_cast<std::int64_t>(index));
-    sample(cell, middle);
+    near_.turn_to({middle_mm(cell), 0.5 * size_mm(cell)}, middle);
+    sample(cell);
     settle_signs(cell);
     store(index);
     if (cell.level == 0) return;
@@ -218,35 +235,25 @@ class MeshFieldBuilder {
     return static_cast<std::size_t>((i * MeshField::nodes + j) * MeshField::nodes + k);
   }
 
-  /// Exact distances at the nodes; the brick shares one search.
-  void sample(const Cell& cell, const ExactSurface::Sample& middle) {
+  std::span<const double> distances() const {
+    return std::span(nodes_.distance_mm).first(MeshField::samples_per_brick);
+  }
+
+  /// Exact distances at the nodes.
+  void sample(const Cell& cell) {
     const double spacing = size_mm(cell) / MeshField::cells;
     const Vector3d origin = origin_mm(cell);
-    const double size = size_mm(cell);
-    const Vector3d centre = origin + Vector3d::Constant(0.5 * size);
-    const double reach = 0.5 * std::sqrt(3.0) * size;
-    surface_.bvh().collect(centre, std::abs(middle.distance_mm) + 2.0 * reach + 1e-9, found_);
-    surface_.pack(centre, found_, candidates_);
-    hint_ = 0;
-    last_triangle_ = middle.triangle;
+    nodes_.count = MeshField::samples_per_brick;
     for (int i = 0; i < MeshField::nodes; ++i)
       for (int j = 0; j < MeshField::nodes; ++j)
         for (int k = 0; k < MeshField::nodes; ++k) {
-          const ExactSurface::Sample s = exact(origin + spacing * Vector3d(i, j, k));
-          distance_[node(i, j, k)] = s.distance_mm;
-          triangle_[node(i, j, k)] = s.triangle;
-          nearest_[node(i, j, k)] = s.nearest_mm;
+          const Vector3d p = origin + spacing * Vector3d(i, j, k);
+          const std::size_t n = node(i, j, k);
+          nodes_.x[n] = p.x();
+          nodes_.y[n] = p.y();
+          nodes_.z[n] = p.z();
         }
-  }
-
-  /// Exact distance in the brick at hand: from its list of candidates, or, where that is long, from the tree,
-  /// the search bounded by the triangle of the last answer.
-  ExactSurface::Sample exact(const Vector3d& p) {
-    if (candidates_.entries.size() <= long_list) return surface_.at(p, candidates_, hint_);
-    const double within = std::abs(surface_.at(p, {&last_triangle_, 1}).distance_mm);
-    const ExactSurface::Sample s = surface_.at(p, within * (1.0 + 1e-9) + 1e-9);
-    last_triangle_ = s.triangle;
-    return s;
+    near_.nearest(nodes_);
   }
 
   /// Where two neighbouring nodes differ in sign though their distances say that no wall is between them, a
@@ -256,7 +263,7 @@ class MeshFieldBuilder {
     const double spacing_mm = size_mm(cell) / MeshField::cells;
     bool suspicious = false;
     const auto joined = [&](std::size_t a, std::size_t b) {
-      return std::abs(distance_[a]) + std::abs(distance_[b]) > spacing_mm * (1.0 + 1e-6);
+      return std::abs(nodes_.distance_mm[a]) + std::abs(nodes_.distance_mm[b]) > spacing_mm * (1.0 + 1e-6);
     };
     const auto each_link = [&](const auto& visit) {
       for (int i = 0; i < MeshField::nodes; ++i)
@@ -268,7 +275,8 @@ class MeshFieldBuilder {
           }
     };
     each_link([&](std::size_t a, std::size_t b) {
-      suspicious = suspicious || ((distance_[a] > 0.0) != (distance_[b] > 0.0) && joined(a, b));
+      suspicious =
+          suspicious || ((nodes_.distance_mm[a] > 0.0) != (nodes_.distance_mm[b] > 0.0) && joined(a, b));
     });
     if (!suspicious) return;
     std::array<std::size_t, MeshField::samples_per_brick> parent{};
@@ -284,8 +292,9 @@ class MeshFieldBuilder {
     std::array<std::size_t, MeshField::samples_per_brick> deepest{};
     for (std::size_t n = 0; n < parent.size(); ++n) {
       const std::size_t r = root(n);
-      if (signs[r] == 0 || std::abs(distance_[n]) > std::abs(distance_[deepest[r]])) deepest[r] = n;
-      signs[r] |= distance_[n] > 0.0 ? 1 : 2;
+      if (signs[r] == 0 || std::abs(nodes_.distance_mm[n]) > std::abs(nodes_.distance_mm[deepest[r]]))
+        deepest[r] = n;
+      signs[r] |= nodes_.distance_mm[n] > 0.0 ? 1 : 2;
     }
     for (std::size_t r = 0; r < parent.size(); ++r) {
       if (signs[r] != 3) continue;
@@ -295,12 +304,12 @@ class MeshFieldBuilder {
       const Vector3d p = origin_mm(cell) + spacing_mm * ijk.cast<double>();
       const double sign = winding_number(closed_.mesh, p) > 0.5 ? 1.0 : -1.0;
       for (std::size_t m = 0; m < parent.size(); ++m)
-        if (root(m) == r) distance_[m] = sign * std::abs(distance_[m]);
+        if (root(m) == r) nodes_.distance_mm[m] = sign * std::abs(nodes_.distance_mm[m]);
     }
   }
 
   void store(std::size_t index) {
-    const auto [low, high] = std::minmax_element(distance_.begin(), distance_.end());
+    const auto [low, high] = std::minmax_element(distances().begin(), distances().end());
     MeshField::Brick& brick = field_.bricks_[index];
     brick.low_mm = static_cast<float>(*low);
     brick.step_mm = static_cast<float>((*high - *low) / 65535.0);
@@ -309,19 +318,19 @@ class MeshFieldBuilder {
     std::uint16_t* samples = field_.samples_.data() + index * MeshField::samples_per_brick;
     double tissue = std::numeric_limits<double>::infinity();
     double nearest = std::numeric_limits<double>::infinity();
-    for (double d : distance_) nearest = std::min(nearest, std::abs(d));
+    for (double d : distances()) nearest = std::min(nearest, std::abs(d));
     const double reach = std::max(2.0, nearest + 1e-6);  // walls that something in this brick may press on
     for (std::size_t n = 0; n < MeshField::samples_per_brick; ++n) {
-      samples[n] =
-          static_cast<std::uint16_t>(std::clamp(std::round((distance_[n] - start) * per_step), 0.0, 65535.0));
-      if (std::abs(distance_[n]) <= reach)
-        tissue = std::min(tissue, lumen_.tissue_mm[static_cast<std::size_t>(triangle_[n])]);
+      samples[n] = static_cast<std::uint16_t>(
+          std::clamp(std::round((nodes_.distance_mm[n] - start) * per_step), 0.0, 65535.0));
+      if (std::abs(nodes_.distance_mm[n]) <= reach)
+        tissue = std::min(tissue, lumen_.tissue_mm[static_cast<std::size_t>(nodes_.triangle[n])]);
     }
     brick.tissue_mm = static_cast<float>(tissue);
     for (unsigned c = 0; c < 8; ++c) {
       const auto end = [&](unsigned bit) { return (c & bit) != 0 ? MeshField::cells : 0; };
-      const auto t = static_cast<std::size_t>(triangle_[node(end(1), end(2), end(4))]);
-      brick.radius_code[c] = MeshField::encode_radius(lumen_.radius_mm[t]);
+      const auto t = static_cast<std::size_t>(nodes_.triangle[node(end(1), end(2), end(4))]);
+      brick.radius_code[c] = radius_code_[t];
     }
   }
 
@@ -332,42 +341,45 @@ class MeshFieldBuilder {
     const double per_mm = 1.0 / size_mm(cell);
     const double spacing = size_mm(cell) / MeshField::cells;
     const Vector3d half = Vector3d::Constant(0.5 * spacing);
-    for (int i = 0; i < MeshField::nodes; ++i)
-      for (int j = 0; j < MeshField::nodes; ++j)
-        for (int k = 0; k < MeshField::nodes; ++k) {
-          const std::size_t n = node(i, j, k);
-          const Vector3d p = origin + spacing * Vector3d(i, j, k);
-          slope_[n] = std::abs(distance_[n]) > 1e-9
-                          ? Vector3d((p - nearest_[n]) / distance_[n])
-                          : Vector3d(-surface_.normal(static_cast<std::size_t>(triangle_[n])));
-        }
+    slopes_of(nodes_, slopes_);
+    for (std::size_t n = 0; n < MeshField::samples_per_brick; ++n) {
+      if (std::abs(nodes_.distance_mm[n]) > 1e-9) continue;
+      const Vector3d inward = -surface_.normal(static_cast<std::size_t>(nodes_.triangle[n]));
+      slopes_.x[n] = inward.x();
+      slopes_.y[n] = inward.y();
+      slopes_.z[n] = inward.z();
+    }
+    TangentRange tangents;
+    tangent_range(nodes_, slopes_, half.x(), tangents);
     SplitMix random((static_cast<std::uint64_t>(cell.at[0]) << 42) ^
                     (static_cast<std::uint64_t>(cell.at[1]) << 21) ^ static_cast<std::uint64_t>(cell.at[2]) ^
                     (static_cast<std::uint64_t>(cell.level) << 60));
     double excess = 0.0;
+    const auto run_tests = [&] {
+      near_.nearest(tests_);
+      for (std::size_t n = 0; n < tests_.count; ++n) {
+        const double truth = tests_.distance_mm[n];
+        if (truth < -parameters_.band_outside_mm) continue;
+        const Vector3d p(tests_.x[n], tests_.y[n], tests_.z[n]);
+        const double found = field_.interpolate(index, {-1, true, per_mm * (p - origin), per_mm}).distance_mm;
+        const double error = std::abs(std::abs(found) - std::abs(truth));
+        excess = std::max(excess, error / tolerance_mm(truth));
+      }
+      tests_.count = 0;
+    };
     const auto test = [&](const Vector3d& p) {
-      const double truth = exact(p).distance_mm;
-      if (truth < -parameters_.band_outside_mm) return;
-      const double found = field_.interpolate(index, {-1, true, per_mm * (p - origin), per_mm}).distance_mm;
-      const double error = std::abs(std::abs(found) - std::abs(truth));
-      excess = std::max(excess, error / tolerance_mm(truth));
+      const std::size_t n = tests_.count++;
+      tests_.x[n] = p.x();
+      tests_.y[n] = p.y();
+      tests_.z[n] = p.z();
+      if (tests_.count == PointBlock::size) run_tests();
     };
     for (int i = 0; i < MeshField::cells; ++i)
       for (int j = 0; j < MeshField::cells; ++j)
         for (int k = 0; k < MeshField::cells; ++k) {
-          double low = std::numeric_limits<double>::infinity();
-          double high = -low;
-          for (int o = 0; o < 8; ++o) {
-            const int di = o & 1;
-            const int dj = (o >> 1) & 1;
-            const int dk = (o >> 2) & 1;
-            const std::size_t n = node(i + di, j + dj, k + dk);
-            const Vector3d& g = slope_[n];
-            const double plane = distance_[n] + half.x() * ((1 - 2 * di) * g.x() + (1 - 2 * dj) * g.y() +
-                                                            (1 - 2 * dk) * g.z());
-            low = std::min(low, plane);
-            high = std::max(high, plane);
-          }
+          const auto cell_index = static_cast<std::size_t>((i * MeshField::cells + j) * MeshField::cells + k);
+          const double low = tangents.low_mm[cell_index];
+          const double high = tangents.high_mm[cell_index];
           const double middle = 0.5 * (low + high);
           if (high - low <= screen_fraction * tolerance_mm(middle) ||
               high < -parameters_.band_outside_mm - spacing)
@@ -382,6 +394,7 @@ class MeshFieldBuilder {
           for (int n = 0; n < random_tests; ++n)
             test(corner + spacing * Vector3d(random.uniform(), random.uniform(), random.uniform()));
         }
+    run_tests();
     return excess;
   }
 
@@ -483,6 +496,7 @@ class MeshFieldBuilder {
   ClosedSurface closed_;
   ExactSurface surface_;
   LumenOfTriangles lumen_;
+  std::vector<std::uint16_t> radius_code_;  // of lumen_
   MeshField field_;
   double finest_mm_ = 0.0;
   double base_scale_ = 1.0;
@@ -492,14 +506,12 @@ class MeshFieldBuilder {
   std::vector<std::size_t> unused_;  // bricks that were split
   std::priority_queue<Worst> worst_;
   // of the brick at hand
-  std::array<double, MeshField::samples_per_brick> distance_{};
-  std::array<std::int32_t, MeshField::samples_per_brick> triangle_{};
-  std::array<Vector3d, MeshField::samples_per_brick> nearest_;
-  std::array<Vector3d, MeshField::samples_per_brick> slope_;
-  std::vector<TriangleBvh::Candidate> found_;
-  ExactSurface::Candidates candidates_;
-  std::int32_t hint_ = 0;
-  std::int32_t last_triangle_ = 0;
+  NearTriangles near_{surface_};
+  PointBlock nodes_;
+  PointBlock tests_;
+  Slopes slopes_;
+  Vector3d last_middle_mm_ = Vector3d::Zero();
+  double last_distance_mm_ = std::numeric_limits<double>::infinity();
 };
 
 MeshField MeshField::build(const RepairedMesh& repaired, const FieldParameters& parameters) {

@@ -65,8 +65,7 @@ double ExactSurface::sign(const Vector3d& point, const NearestPoint& nearest) co
 }
 
 ExactSurface::Sample ExactSurface::at(const Vector3d& point, double within_mm) const {
-  const NearestPoint nearest = bvh_.nearest(point, within_mm);
-  return {sign(point, nearest) * nearest.distance_mm, nearest.point_mm, nearest.triangle};
+  return signed_at(point, bvh_.nearest(point, within_mm));
 }
 
 ExactSurface::Sample ExactSurface::at(const Vector3d& point, std::span<const std::int32_t> triangles) const {
@@ -82,65 +81,7 @@ ExactSurface::Sample ExactSurface::at(const Vector3d& point, std::span<const std
     best2 = d2;
     best = {std::sqrt(d2), q, triangle, feature};
   }
-  return {sign(point, best) * best.distance_mm, best.point_mm, best.triangle};
-}
-
-void ExactSurface::pack(const Vector3d& centre_mm, const std::vector<TriangleBvh::Candidate>& found,
-                        Candidates& out) const {
-  out.centre_mm = centre_mm;
-  out.entries.clear();
-  for (const TriangleBvh::Candidate& c : found) {
-    const auto t = static_cast<std::size_t>(c.triangle);
-    const Vector3d middle = (mesh_.corner(t, 0) + mesh_.corner(t, 1) + mesh_.corner(t, 2)) / 3.0;
-    double radius2 = 0.0;
-    for (std::size_t k = 0; k < 3; ++k)
-      radius2 = std::max(radius2, (mesh_.corner(t, k) - middle).squaredNorm());
-    out.entries.push_back({c.distance_mm,
-                           middle,
-                           std::sqrt(radius2) * (1.0 + 1e-12),
-                           face_normals_[t],
-                           face_normals_[t].dot(mesh_.corner(t, 0)),
-                           c.triangle,
-                           {mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)}});
-  }
-}
-
-ExactSurface::Sample ExactSurface::at(const Vector3d& point, const Candidates& candidates,
-                                      std::int32_t& hint) const {
-  constexpr double slack_mm = 1e-9;  // rounding of the bounds; they only save work
-  const double shift = (point - candidates.centre_mm).norm() + slack_mm;
-  NearestPoint best;
-  double best2 = std::numeric_limits<double>::infinity();
-  double reach = best2;  // √best2 and the slack
-  const auto visit = [&](std::size_t i) {
-    const Candidates::Entry& entry = candidates.entries[i];
-    const std::int32_t triangle = entry.triangle;
-    Vector3d q;
-    std::uint8_t feature = 0;
-    const double d2 =
-        nearest_on_triangle(point, entry.corner_mm[0], entry.corner_mm[1], entry.corner_mm[2], q, feature);
-    if (d2 > best2 || (d2 == best2 && triangle >= best.triangle)) return;
-    best2 = d2;
-    reach = std::sqrt(best2) + slack_mm;
-    best.point_mm = q;
-    best.triangle = triangle;
-    best.feature = feature;
-    hint = static_cast<std::int32_t>(i);
-  };
-  const auto first = static_cast<std::size_t>(hint);
-  visit(first);
-  for (std::size_t i = 0; i < candidates.entries.size(); ++i) {
-    const Candidates::Entry& entry = candidates.entries[i];
-    if (entry.distance_mm - shift > reach) break;  // neither this nor a later triangle is nearer
-    const double height = entry.normal.dot(point) - entry.offset_mm;
-    const double aside2 = reach * reach - height * height;  // what the plane's distance leaves within it
-    if (aside2 < 0.0) continue;
-    const double ball = std::sqrt(aside2) + entry.radius_mm;
-    if ((point - entry.centre_mm).squaredNorm() - height * height > ball * ball) continue;
-    if (i != first) visit(i);
-  }
-  best.distance_mm = std::sqrt(best2);
-  return {sign(point, best) * best.distance_mm, best.point_mm, best.triangle};
+  return signed_at(point, best);
 }
 
 }  // namespace endowire::vessel

@@ -32,27 +32,10 @@ class ExactSurface {
   /// The same by trying some triangles only: right when the nearest is among them.
   [[nodiscard]] Sample at(const Eigen::Vector3d& point_mm, std::span<const std::int32_t> triangles) const;
 
-  /// Triangles near a ball, laid out for many queries inside it.
-  struct Candidates {
-    struct Entry {
-      double distance_mm;         ///< to the centre of the ball; ascending
-      Eigen::Vector3d centre_mm;  ///< of the triangle's bounding ball
-      double radius_mm;
-      Eigen::Vector3d normal;
-      double offset_mm;  ///< of its plane
-      std::int32_t triangle;
-      std::array<Eigen::Vector3d, 3> corner_mm;
-    };
-    Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();
-    std::vector<Entry> entries;
-  };
-  void pack(const Eigen::Vector3d& centre_mm, const std::vector<TriangleBvh::Candidate>& found,
-            Candidates& out) const;
-
-  /// The same from candidates that are known to hold the nearest triangle.
-  /// @param hint  entry to begin with; on return the nearest one, a good hint for a point close by
-  [[nodiscard]] Sample at(const Eigen::Vector3d& point_mm, const Candidates& candidates,
-                          std::int32_t& hint) const;
+  /// A point's nearest place on the surface with its sign.
+  [[nodiscard]] Sample signed_at(const Eigen::Vector3d& point_mm, const NearestPoint& nearest) const {
+    return {sign(point_mm, nearest) * nearest.distance_mm, nearest.point_mm, nearest.triangle};
+  }
 
   [[nodiscard]] const TriangleBvh& bvh() const { return bvh_; }
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
