@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "endowire/vessel/random.hpp"
 #include "support/centreline_checks.hpp"
@@ -317,6 +319,42 @@ TEST(Centreline, ATreeOfManyBranchesIsWhole) {
       shape, Eigen::AlignedBox3d(Vector3d(-19.1, -19.2, -21.3), Vector3d(19.3, 19.1, 196.2)), 0.8));
   EXPECT_EQ(count_ends(tree, CentrelineEndKind::cap), 2 + rows * per_row);
   EXPECT_EQ(count_ends(tree, CentrelineEndKind::cut), 0);
+}
+
+// As an atrium with its veins: whichever way round, a vessel leads through the chamber to each of the others.
+TEST(Centreline, VesselsThatMeetInAChamberAreAllFound) {
+  constexpr double chamber_mm = 22.0;
+  constexpr double reach_mm = 60.0;
+  const std::vector<std::pair<Vector3d, double>> vessels = {
+      {{0.0, 0.0, -1.0}, 9.0}, {{0.1, 0.2, 1.0}, 7.0},   {{1.0, 0.1, 0.3}, 5.0},
+      {{-0.9, 0.5, 0.2}, 4.0}, {{-0.8, -0.7, 0.1}, 3.0}, {{0.2, -1.0, -0.2}, 5.5}};
+  const auto shape = [&](const Vector3d& p) {
+    double least = p.norm() - chamber_mm;
+    for (const auto& [direction, radius_mm] : vessels)
+      least =
+          std::min(least, test::capsule(p, Vector3d::Zero(), reach_mm * direction.normalized(), radius_mm));
+    return least;
+  };
+  const TriangleMesh mesh =
+      test::surface_of(shape, Eigen::AlignedBox3d(Vector3d::Constant(-72.3), Vector3d::Constant(72.1)), 1.6);
+  for (const auto& root : {vessels.front(), vessels.back()}) {
+    CentrelineParameters from;
+    from.root_near_mm = reach_mm * root.first.normalized();
+    const CentrelineTree tree = tree_of(mesh, from);
+    EXPECT_EQ(count_ends(tree, CentrelineEndKind::cap), static_cast<int>(vessels.size()));
+    EXPECT_EQ(count_ends(tree, CentrelineEndKind::cut), 0);
+    const NearestCentreline begin = tree.nearest(*from.root_near_mm);
+    for (const auto& [direction, radius_mm] : vessels) {
+      const Vector3d outlet = 45.0 * direction.normalized();
+      const NearestCentreline place = tree.nearest(outlet);
+      EXPECT_LT((tree.state_at(place.place).position_mm - outlet).norm(), 0.2 * radius_mm);
+      EXPECT_NEAR(tree.state_at(place.place).radius_mm, radius_mm, 0.1 * radius_mm);
+      const double way_mm = tree.distance_mm(begin.place, place.place);
+      if (direction == root.first) continue;
+      EXPECT_GT(way_mm, (outlet - *from.root_near_mm).norm() - 2.0);
+      EXPECT_LT(way_mm, 45.0 + reach_mm + 20.0);
+    }
+  }
 }
 
 TEST(Centreline, AChamberWithoutEndsHasNoBranches) {
