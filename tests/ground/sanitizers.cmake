@@ -1,5 +1,5 @@
 # cmake -DPRESET=asan [-DTESTS=asan-whole] -P sanitizers.cmake: the library and its unit tests, simulations among them, run
-# clean. TESTS names the preset of the tests where it is another: of the anatomies, which take most of the time, `asan`
+# clean. TESTS names the preset of the tests where it is another: of whole anatomies, which take most of the time, `asan`
 # makes each once.
 cmake_minimum_required(VERSION 3.22)
 get_filename_component(root ${CMAKE_CURRENT_LIST_DIR}/../.. ABSOLUTE)
