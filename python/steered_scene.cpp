@@ -84,11 +84,6 @@ Report Companion::after(const sim::Command& command, const sim::Simulation& wire
   return {report, {begun.begin(), begun.end()}, variant};
 }
 
-void Companion::put_back(io::SavedState saved) {
-  events.restore(saved.events);
-  last = std::move(saved.last);
-}
-
 Observation Companion::observe() const {
   Observation seen;
   seen.snapshot = last;
@@ -100,18 +95,33 @@ Observation Companion::observe() const {
   return seen;
 }
 
-std::string save(const sim::Simulation& wire, const Companion& companion) {
-  return io::pack_state({companion.variant->seed, wire.state(), companion.events.memory(), companion.last},
-                        companion.source->key);
+sim::Simulation Companion::reset(std::optional<std::uint64_t> seed) {
+  std::shared_ptr<const Variant> other = variant_of(*source, seed);
+  sim::Simulation wire = begin(*other);
+  *this = Companion(source, std::move(other), wire);
+  return wire;
 }
 
-Resumed read_saved(const std::string& bytes, const Companion& current) {
-  Resumed resumed{current.variant, io::unpack_state(bytes, current.source->key, "state")};
-  if (resumed.saved.seed != current.variant->seed)
-    resumed.variant = variant_of(*current.source, resumed.saved.seed);
-  sim::EventWatch(resumed.variant->prepared->centrelines)
-      .restore(resumed.saved.events);  // refuses what cannot be
-  return resumed;
+std::string Companion::save(const sim::Simulation& wire) const {
+  return io::pack_state({variant->seed, wire.state(), events.memory(), last}, source->key);
+}
+
+std::optional<sim::Simulation> Companion::restore(const std::string& bytes,
+                                                  const std::function<void(const sim::State&)>& put) {
+  io::SavedState saved = io::unpack_state(bytes, source->key, "state");
+  std::shared_ptr<const Variant> of = saved.seed == variant->seed ? variant : variant_of(*source, saved.seed);
+  sim::EventWatch(of->prepared->centrelines).restore(saved.events);  // refuses what cannot be
+  std::optional<sim::Simulation> other;
+  if (of == variant) {
+    put(saved.state);
+  } else {
+    other = begin(*of);
+    other->restore(saved.state);
+    *this = Companion(source, std::move(of), *other);
+  }
+  events.restore(saved.events);
+  last = std::move(saved.last);
+  return other;
 }
 
 }  // namespace endowire::python

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,12 +62,6 @@ struct Observation {
   std::optional<sim::TargetDistance> target;
 };
 
-/// What was saved, with the variant that it belongs to.
-struct Resumed {
-  std::shared_ptr<const Variant> variant;
-  io::SavedState saved;
-};
-
 /// All beside the simulation itself that one wire of Python remembers.
 struct Companion {
   std::shared_ptr<const Source> source;
@@ -77,16 +72,20 @@ struct Companion {
   Companion(std::shared_ptr<const Source> of, std::shared_ptr<const Variant> as, const sim::Simulation& wire);
   [[nodiscard]] Report after(const sim::Command& command, const sim::Simulation& wire,
                              const sim::StepReport& report);
-  /// Goes on as it was saved, beside a simulation of the same state.
-  void put_back(io::SavedState saved);
   [[nodiscard]] Observation observe() const;
+
+  /// Begins anew, as the variant of a seed.
+  /// @return the wire to go on with
+  [[nodiscard]] sim::Simulation reset(std::optional<std::uint64_t> seed);
+
+  /// The bytes of a wire between two steps: state, events under way, the last forces, and its variant.
+  [[nodiscard]] std::string save(const sim::Simulation& wire) const;
+  /// Goes on as it was saved.
+  /// @param put  puts a state into the wire at hand; it may throw
+  /// @return the wire to go on with in its place, when another variant was saved
+  /// @throws base::InputError for bytes that are none, damaged, or of another scene; nothing is changed then
+  [[nodiscard]] std::optional<sim::Simulation> restore(const std::string& bytes,
+                                                       const std::function<void(const sim::State&)>& put);
 };
-
-/// The bytes of a wire between two steps: state, events under way, the last forces, and its variant.
-[[nodiscard]] std::string save(const sim::Simulation& wire, const Companion& companion);
-
-/// @param current  its vessel is used again when it is that of the variant saved
-/// @throws base::InputError for bytes that are none, damaged, or of another scene
-[[nodiscard]] Resumed read_saved(const std::string& bytes, const Companion& current);
 
 }  // namespace endowire::python
