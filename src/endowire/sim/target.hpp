@@ -12,8 +12,8 @@ namespace endowire::sim {
 /// Where the tip of the wire is to go, in words of the vessel.
 struct TargetSpec {
   std::string name;  ///< for people; may be empty
-  std::string
-      branch;  ///< as the centreline tree names it, or a vessel: its first stretch; empty: `near_mm` tells
+  /// As the centreline tree names it, or a vessel: its first stretch. Empty: `near_mm` tells.
+  std::string branch;
   Eigen::Vector3d near_mm = Eigen::Vector3d::Zero();  ///< a point in the lumen of the branch meant
   /// How far along the branch, and on as the same vessel, from its ostium. None: to the ostium of a branch that is
   /// named, as far as the point that is given.

@@ -21,10 +21,11 @@ static_assert(std::endian::native == std::endian::little, "prepared data are sto
 
 /// What a cache file holds, and which version of it.
 struct StorageKind {
-  std::uint64_t magic;                                                     ///< first eight bytes
-  std::uint64_t version;                                                   ///< of the format
-  const char* what;                                                        ///< for messages: "prepared field"
-  const char* foreign = "it belongs to another mesh or other parameters";  ///< same, of another key
+  std::uint64_t magic;    ///< first eight bytes
+  std::uint64_t version;  ///< of the format
+  const char* what;       ///< for messages: "prepared field"
+  /// For messages, of a file with another key.
+  const char* foreign = "it belongs to another mesh or other parameters";
 };
 
 /// Five words stand before the payload: magic, version, key, bytes of the payload, its checksum.
