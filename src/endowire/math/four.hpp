@@ -40,16 +40,17 @@ struct Pairs {
   [[gnu::always_inline]] friend Pairs operator*(double a, const Pairs& b) { return {a * b.low, a * b.high}; }
 };
 
-template <typename Four>
-[[gnu::always_inline]] inline Four load(const double* from) {
-  Four four;
-  std::memcpy(&four, from, sizeof(four));
-  return four;
+/// A row of numbers side by side in memory, of any of these kinds or of other vectors.
+template <typename Row, typename Number>
+[[gnu::always_inline]] inline Row load(const Number* from) {
+  Row row;
+  std::memcpy(&row, from, sizeof(row));
+  return row;
 }
 
-template <typename Four>
-[[gnu::always_inline]] inline void store(const Four& four, double* to) {
-  std::memcpy(to, &four, sizeof(four));
+template <typename Row, typename Number>
+[[gnu::always_inline]] inline void store(const Row& row, Number* to) {
+  std::memcpy(to, &row, sizeof(row));
 }
 
 /// The sums (v₀ + v₁) + (v₂ + v₃) of four vectors.

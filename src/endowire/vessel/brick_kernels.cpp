@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "endowire/math/four.hpp"
@@ -46,18 +45,6 @@ template <typename V, typename M>
 }
 
 template <typename M>
-[[gnu::always_inline]] inline M load_integers(const std::int64_t* from) {
-  M row;
-  std::memcpy(&row, from, sizeof(row));
-  return row;
-}
-
-template <typename M>
-[[gnu::always_inline]] inline void store_integers(const M& row, std::int64_t* to) {
-  std::memcpy(to, &row, sizeof(row));
-}
-
-template <typename M>
 [[gnu::always_inline]] inline bool in_all(const M& mask) {
   constexpr std::size_t lanes = sizeof(M) / sizeof(std::int64_t);
   std::int64_t joined = -1;
@@ -70,7 +57,7 @@ using QuadMask = decltype(math::Quad{} < math::Quad{});
 [[gnu::always_inline]] inline bool in_all(const QuadMask& mask) {
   using Half [[gnu::vector_size(16)]] = double;
   std::array<Half, 2> halves;
-  std::memcpy(halves.data(), &mask, sizeof(mask));
+  math::store(mask, halves.data());
   return (__builtin_ia32_movmskpd(halves[0]) & __builtin_ia32_movmskpd(halves[1])) == 3;
 }
 #endif
@@ -158,11 +145,11 @@ template <typename V>
   const Vec<V> away = p - nearest;
   const V distance2 = dot(away, away);
 
-  const M last = load_integers<M>(&block.triangle[lane]);
+  const M last = math::load<M>(&block.triangle[lane]);
   const M number = M{} + triangle.triangle;
   const M better = (distance2 < before) | ((distance2 == before) & (number < last));
-  store_integers(better ? number : last, &block.triangle[lane]);
-  store_integers(better ? feature : load_integers<M>(&block.feature[lane]), &block.feature[lane]);
+  math::store(better ? number : last, &block.triangle[lane]);
+  math::store(better ? feature : math::load<M>(&block.feature[lane]), &block.feature[lane]);
   math::store(better ? distance2 : before, &block.distance2_mm2[lane]);
   math::store(better ? dot(normal, away) : math::load<V>(&block.height_mm[lane]), &block.height_mm[lane]);
   math::store(better ? nearest.x : math::load<V>(&block.nearest_x[lane]), &block.nearest_x[lane]);

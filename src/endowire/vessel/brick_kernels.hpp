@@ -7,6 +7,7 @@
 namespace endowire::vessel {
 
 /// Points and the nearest point of a surface to each, as far as it has been searched.
+/// Lengths in mm, a place for each point.
 struct alignas(32) PointBlock {
   static constexpr std::size_t size = 128;
   using Numbers = std::array<double, size>;
@@ -22,7 +23,9 @@ struct alignas(32) PointBlock {
   Numbers distance_mm;  ///< positive inside
 };
 
+/// A triangle as the kernels want it: places in the mesh, and bounds that save work.
 struct KernelTriangle {
+  // coordinates [mm], three each
   const double* a;
   const double* b;
   const double* c;
@@ -45,17 +48,19 @@ void try_triangle(const KernelTriangle& triangle, PointBlock& block);
 /// Distances, with the sign of the face's plane; where the feature is another, that is still to be put right.
 void end_search(PointBlock& block);
 
+/// Gradients of the distance at points; each has length one.
+struct Slopes {
+  PointBlock::Numbers x, y, z;
+};
+
 /// What the tangent planes at a cell's eight corners say of its middle, at least and at most.
 struct TangentRange {
   static constexpr std::size_t cells = 64;  ///< of a brick, the last index fastest
   std::array<double, cells> low_mm, high_mm;
 };
 /// @param nodes    5 × 5 × 5 nodes, the last index fastest
-/// @param slopes   gradients of the distance there
+/// @param slopes   at these
 /// @param half_mm  of an edge of a cell
-struct Slopes {
-  PointBlock::Numbers x, y, z;
-};
 void tangent_range(const PointBlock& nodes, const Slopes& slopes, double half_mm, TangentRange& range);
 
 /// (point − nearest) / distance; of no use where the distance is next to nothing.

@@ -218,11 +218,37 @@ class Ahead {
   std::size_t count_ = 0;
 };
 
+template <class Visit>
+void each_bit(unsigned bits, const Visit& visit) {
+  for (; bits != 0; bits &= bits - 1) visit(static_cast<std::size_t>(std::countr_zero(bits)));
+}
+
 }  // namespace
+
+template <class Enter, class Visit, class Lost>
+void TriangleBvh::walk(const Enter& enter, const Visit& visit, const Lost& lost) const {
+  if (nodes_.empty()) return;
+  Ahead ahead;
+  EightFloats bounds;
+  std::int32_t part = 0;
+  for (;;) {
+    if (part >= 0) {
+      const Node& node = nodes_[static_cast<std::size_t>(part)];
+      ahead.push(node.used & enter(node.boxes, bounds), bounds, node.part);
+    } else if (!visit(leaves_[static_cast<std::size_t>(-1 - part)])) {
+      return;
+    }
+    Ahead::Entry next{};
+    do {
+      if (ahead.empty()) return;
+      next = ahead.pop();
+    } while (lost(next.bound));
+    part = next.part;
+  }
+}
 
 NearestPoint TriangleBvh::nearest(const Vector3d& p, double within_mm, double enough_mm) const {
   NearestPoint best;
-  if (nodes_.empty()) return best;
   const std::array<float, 3> point = near_origin(p);
   const double margin_mm = widening * (extent_mm_ + (p - origin_mm_).cwiseAbs().maxCoeff());
   double best2 = within_mm * within_mm;
@@ -241,80 +267,59 @@ NearestPoint TriangleBvh::nearest(const Vector3d& p, double within_mm, double en
     best.triangle = t;
     best.feature = feature;
   };
-  Ahead ahead;
-  EightFloats bounds;
-  std::int32_t part = 0;
-  for (;;) {
-    if (part >= 0) {
-      const Node& node = nodes_[static_cast<std::size_t>(part)];
-      ahead.push(node.used & kernels_.near_boxes(node.boxes, point, within2, bounds), bounds, node.part);
-    } else {
-      const Leaf& leaf = leaves_[static_cast<std::size_t>(-1 - part)];
-      const double before2 = best2;
-      unsigned bits = leaf.used & kernels_.near_discs(leaf.discs, point, reach);
-      for (; bits != 0; bits &= bits - 1)
-        attempt(leaf.triangle[static_cast<std::size_t>(std::countr_zero(bits))]);
-      if (best2 < before2) {
-        within2 = overstated(best2);
-        reach = overstated(std::sqrt(best2) + margin_mm);
-        if (best2 < enough2) break;
-      }
-    }
-    Ahead::Entry next{};
-    do {
-      if (ahead.empty()) {
-        if (best.triangle >= 0) best.distance_mm = std::sqrt(best2);
-        return best;
-      }
-      next = ahead.pop();
-    } while (next.bound > within2);
-    part = next.part;
-  }
-  best.distance_mm = std::sqrt(best2);
+  walk([&](const EightBoxes& boxes,
+           EightFloats& bounds) { return kernels_.near_boxes(boxes, point, within2, bounds); },
+       [&](const Leaf& leaf) {
+         const double before2 = best2;
+         each_bit(leaf.used & kernels_.near_discs(leaf.discs, point, reach),
+                  [&](std::size_t i) { attempt(leaf.triangle[i]); });
+         if (best2 < before2) {
+           within2 = overstated(best2);
+           reach = overstated(std::sqrt(best2) + margin_mm);
+         }
+         return !(best2 < before2 && best2 < enough2);
+       },
+       [&](float bound) { return bound > within2; });
+  if (best.triangle >= 0) best.distance_mm = std::sqrt(best2);
   return best;
 }
 
 bool TriangleBvh::touching(const Eigen::AlignedBox3d& box, std::vector<std::int32_t>& out,
                            std::size_t most) const {
   out.clear();
-  if (nodes_.empty()) return true;
   const Vector3d low = box.min() - origin_mm_;
   const Vector3d high = box.max() - origin_mm_;
-  std::array<std::int32_t, stack_size> ahead;
-  std::size_t count = 0;
-  ahead[count++] = 0;
-  while (count > 0) {
-    const std::int32_t part = ahead[--count];
-    if (part >= 0) {
-      const Node& node = nodes_[static_cast<std::size_t>(part)];
-      for (unsigned bits = node.used; bits != 0; bits &= bits - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(bits));
-        bool touches = true;
-        for (std::size_t k = 0; k < 3; ++k) {
-          const auto axis = static_cast<Eigen::Index>(k);
-          touches = touches && low[axis] <= static_cast<double>(node.boxes.high[k][i]) &&
-                    high[axis] >= static_cast<double>(node.boxes.low[k][i]);
+  walk(
+      [&](const EightBoxes& boxes, EightFloats& bounds) {
+        unsigned bits = 0;
+        for (std::size_t i = 0; i < bvh_width; ++i) {
+          bool touches = true;
+          for (std::size_t k = 0; k < 3; ++k) {
+            const auto axis = static_cast<Eigen::Index>(k);
+            touches = touches && low[axis] <= static_cast<double>(boxes.high[k][i]) &&
+                      high[axis] >= static_cast<double>(boxes.low[k][i]);
+          }
+          bits |= (touches ? 1U : 0U) << i;
         }
-        if (touches) ahead[count++] = node.part[i];
-      }
-      continue;
-    }
-    const Leaf& leaf = leaves_[static_cast<std::size_t>(-1 - part)];
-    for (unsigned bits = leaf.used; bits != 0; bits &= bits - 1) {
-      const std::int32_t t = leaf.triangle[static_cast<std::size_t>(std::countr_zero(bits))];
-      Eigen::AlignedBox3d own;
-      for (std::size_t k = 0; k < 3; ++k) own.extend(mesh_.corner(static_cast<std::size_t>(t), k));
-      if (box.intersects(own)) out.push_back(t);
-    }
-    if (out.size() > most) return false;
-  }
-  return true;
+        bounds.fill(0.0F);
+        return bits;
+      },
+      [&](const Leaf& leaf) {
+        each_bit(leaf.used, [&](std::size_t i) {
+          const std::int32_t t = leaf.triangle[i];
+          Eigen::AlignedBox3d own;
+          for (std::size_t k = 0; k < 3; ++k) own.extend(mesh_.corner(static_cast<std::size_t>(t), k));
+          if (box.intersects(own)) out.push_back(t);
+        });
+        return out.size() <= most;
+      },
+      [](float) { return false; });
+  return out.size() <= most;
 }
 
 TriangleBvh::Hit TriangleBvh::cast(const Vector3d& origin, const Vector3d& direction, double from_mm,
                                    double to_mm) const {
   Hit hit;
-  if (nodes_.empty()) return hit;
   BvhRay ray{near_origin(origin), {}, {}, static_cast<float>(from_mm * (1.0 - widening)), overstated(to_mm)};
   constexpr float steepest = 1e30F;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -343,27 +348,15 @@ TriangleBvh::Hit TriangleBvh::cast(const Vector3d& origin, const Vector3d& direc
     nearest = along;
     hit = {along, t};
   };
-  Ahead ahead;
-  EightFloats enters;
-  std::int32_t part = 0;
-  for (;;) {
-    if (part >= 0) {
-      const Node& node = nodes_[static_cast<std::size_t>(part)];
-      ahead.push(node.used & kernels_.hit_boxes(node.boxes, ray, enters), enters, node.part);
-    } else {
-      const Leaf& leaf = leaves_[static_cast<std::size_t>(-1 - part)];
-      unsigned bits = leaf.used & kernels_.hit_discs(leaf.discs, ray, margin);
-      for (; bits != 0; bits &= bits - 1)
-        attempt(leaf.triangle[static_cast<std::size_t>(std::countr_zero(bits))]);
-      ray.end = overstated(nearest);
-    }
-    Ahead::Entry next{};
-    do {
-      if (ahead.empty()) return hit;
-      next = ahead.pop();
-    } while (next.bound > ray.end);
-    part = next.part;
-  }
+  walk([&](const EightBoxes& boxes, EightFloats& enters) { return kernels_.hit_boxes(boxes, ray, enters); },
+       [&](const Leaf& leaf) {
+         each_bit(leaf.used & kernels_.hit_discs(leaf.discs, ray, margin),
+                  [&](std::size_t i) { attempt(leaf.triangle[i]); });
+         ray.end = overstated(nearest);
+         return true;
+       },
+       [&](float bound) { return bound > ray.end; });
+  return hit;
 }
 
 }  // namespace endowire::vessel

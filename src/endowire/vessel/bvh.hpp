@@ -71,6 +71,12 @@ class TriangleBvh {
   };
   class Builder;
 
+  /// Goes through the parts of the tree, of a node's those with the smallest bound first.
+  /// @param enter  EightBoxes and room for bounds to the bits of the parts that are worth it
+  /// @param visit  a leaf; false ends the walk
+  /// @param lost   whether a part of this bound is no longer worth it
+  template <class Enter, class Visit, class Lost>
+  void walk(const Enter& enter, const Visit& visit, const Lost& lost) const;
   [[nodiscard]] std::array<float, 3> near_origin(const Eigen::Vector3d& point_mm) const;
 
   const TriangleMesh& mesh_;

@@ -1,22 +1,15 @@
 #include "endowire/vessel/bvh_kernels.hpp"
 
-#include <cstring>
-
 #include "endowire/math/four.hpp"
 #include "endowire/math/processor.hpp"
 
 namespace endowire::vessel {
 namespace {
 
+using math::load;
+
 /// Of squares of lengths and of quotients in single precision: what rounding may do to them.
 constexpr float rounding = 2e-6F;
-
-template <typename F>
-[[gnu::always_inline]] inline F load(const float* from) {
-  F row;
-  std::memcpy(&row, from, sizeof(row));
-  return row;
-}
 
 template <typename F>
 [[gnu::always_inline]] inline F larger(const F& a, const F& b) {
@@ -35,8 +28,7 @@ template <typename I>
   I own{};  // 1, 2, 4, ...
   for (std::size_t i = 0; i < lanes; ++i) own[i] = 1 << i;
   std::array<std::uint64_t, lanes / 2> pairs;
-  const I marked = mask & own;
-  std::memcpy(pairs.data(), &marked, sizeof(marked));
+  math::store(I(mask & own), pairs.data());
   std::uint64_t joined = 0;
   for (std::uint64_t pair : pairs) joined |= pair;
   return static_cast<unsigned>(joined | (joined >> 32U));
@@ -56,7 +48,7 @@ template <typename F>
       sum += outside * outside;
     }
     sum = sum * (1.0F - rounding);
-    std::memcpy(distance2.data() + i, &sum, sizeof(sum));
+    math::store(sum, distance2.data() + i);
     bits |= bits_of(sum <= within2) << i;
   }
   return bits;
@@ -103,7 +95,7 @@ template <typename F>
       near = larger(near, first - rounding * larger(first, -first));
       far = smaller(far, last + rounding * larger(last, -last));
     }
-    std::memcpy(enters.data() + i, &near, sizeof(near));
+    math::store(near, enters.data() + i);
     bits |= bits_of(near <= far) << i;
   }
   return bits;

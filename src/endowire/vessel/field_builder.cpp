@@ -1,10 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 #include <queue>
 #include <span>
 
 #include "endowire/base/contract.hpp"
+#include "endowire/vessel/brick_signs.hpp"
 #include "endowire/vessel/field_probes.hpp"
 #include "endowire/vessel/hash.hpp"
 #include "endowire/vessel/lumen.hpp"
@@ -12,7 +13,6 @@
 #include "endowire/vessel/near_triangles.hpp"
 #include "endowire/vessel/random.hpp"
 #include "endowire/vessel/surface.hpp"
-#include "endowire/vessel/winding.hpp"
 
 namespace endowire::vessel {
 namespace {
@@ -224,15 +224,11 @@ class MeshFieldBuilder {
     reference(cell.slot) = static_cast<MeshField::Reference>(-1 - 2 * static_cast<std::int64_t>(index));
     near_.turn_to({middle_mm(cell), 0.5 * size_mm(cell)}, middle);
     sample(cell);
-    settle_signs(cell);
+    settle_signs(nodes_, size_mm(cell) / MeshField::cells, closed_.mesh);
     store(index);
     if (cell.level == 0) return;
     const double excess = excess_of_tests(index, cell);
     if (excess > 1.0) worst_.push({excess, index});
-  }
-
-  static std::size_t node(int i, int j, int k) {
-    return static_cast<std::size_t>((i * MeshField::nodes + j) * MeshField::nodes + k);
   }
 
   std::span<const double> distances() const {
@@ -248,64 +244,12 @@ class MeshFieldBuilder {
       for (int j = 0; j < MeshField::nodes; ++j)
         for (int k = 0; k < MeshField::nodes; ++k) {
           const Vector3d p = origin + spacing * Vector3d(i, j, k);
-          const std::size_t n = node(i, j, k);
+          const std::size_t n = brick_node(i, j, k);
           nodes_.x[n] = p.x();
           nodes_.y[n] = p.y();
           nodes_.z[n] = p.z();
         }
     near_.nearest(nodes_);
-  }
-
-  /// Where two neighbouring nodes differ in sign though their distances say that no wall is between them, a
-  /// flaw of the mesh misled the pseudonormal; the winding number decides for the whole connected set of
-  /// nodes.
-  void settle_signs(const Cell& cell) {
-    const double spacing_mm = size_mm(cell) / MeshField::cells;
-    bool suspicious = false;
-    const auto joined = [&](std::size_t a, std::size_t b) {
-      return std::abs(nodes_.distance_mm[a]) + std::abs(nodes_.distance_mm[b]) > spacing_mm * (1.0 + 1e-6);
-    };
-    const auto each_link = [&](const auto& visit) {
-      for (int i = 0; i < MeshField::nodes; ++i)
-        for (int j = 0; j < MeshField::nodes; ++j)
-          for (int k = 0; k < MeshField::nodes; ++k) {
-            if (i > 0) visit(node(i, j, k), node(i - 1, j, k));
-            if (j > 0) visit(node(i, j, k), node(i, j - 1, k));
-            if (k > 0) visit(node(i, j, k), node(i, j, k - 1));
-          }
-    };
-    each_link([&](std::size_t a, std::size_t b) {
-      suspicious =
-          suspicious || ((nodes_.distance_mm[a] > 0.0) != (nodes_.distance_mm[b] > 0.0) && joined(a, b));
-    });
-    if (!suspicious) return;
-    std::array<std::size_t, MeshField::samples_per_brick> parent{};
-    std::iota(parent.begin(), parent.end(), std::size_t{0});
-    const auto root = [&](std::size_t n) {
-      while (parent[n] != n) n = parent[n] = parent[parent[n]];
-      return n;
-    };
-    each_link([&](std::size_t a, std::size_t b) {
-      if (joined(a, b)) parent[root(a)] = root(b);
-    });
-    std::array<int, MeshField::samples_per_brick> signs{};  // bit 1: an inside node, bit 2: an outside one
-    std::array<std::size_t, MeshField::samples_per_brick> deepest{};
-    for (std::size_t n = 0; n < parent.size(); ++n) {
-      const std::size_t r = root(n);
-      if (signs[r] == 0 || std::abs(nodes_.distance_mm[n]) > std::abs(nodes_.distance_mm[deepest[r]]))
-        deepest[r] = n;
-      signs[r] |= nodes_.distance_mm[n] > 0.0 ? 1 : 2;
-    }
-    for (std::size_t r = 0; r < parent.size(); ++r) {
-      if (signs[r] != 3) continue;
-      const auto n = static_cast<int>(deepest[r]);
-      const Eigen::Vector3i ijk(n / (MeshField::nodes * MeshField::nodes),
-                                n / MeshField::nodes % MeshField::nodes, n % MeshField::nodes);
-      const Vector3d p = origin_mm(cell) + spacing_mm * ijk.cast<double>();
-      const double sign = winding_number(closed_.mesh, p) > 0.5 ? 1.0 : -1.0;
-      for (std::size_t m = 0; m < parent.size(); ++m)
-        if (root(m) == r) nodes_.distance_mm[m] = sign * std::abs(nodes_.distance_mm[m]);
-    }
   }
 
   void store(std::size_t index) {
@@ -329,7 +273,7 @@ class MeshFieldBuilder {
     brick.tissue_mm = static_cast<float>(tissue);
     for (unsigned c = 0; c < 8; ++c) {
       const auto end = [&](unsigned bit) { return (c & bit) != 0 ? MeshField::cells : 0; };
-      const auto t = static_cast<std::size_t>(nodes_.triangle[node(end(1), end(2), end(4))]);
+      const auto t = static_cast<std::size_t>(nodes_.triangle[brick_node(end(1), end(2), end(4))]);
       brick.radius_code[c] = radius_code_[t];
     }
   }
