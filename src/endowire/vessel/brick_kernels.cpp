@@ -6,6 +6,7 @@
 
 #include "endowire/math/four.hpp"
 #include "endowire/math/processor.hpp"
+#include "endowire/vessel/bvh.hpp"
 
 namespace endowire::vessel {
 namespace {
@@ -42,6 +43,11 @@ template <typename V, typename M>
   into.x = mask ? from.x : into.x;
   into.y = mask ? from.y : into.y;
   into.z = mask ? from.z : into.z;
+}
+
+template <typename V>
+[[gnu::always_inline]] inline V size(const V& v) {
+  return v < 0.0 ? -v : v;
 }
 
 template <typename M>
@@ -101,6 +107,8 @@ template <typename V>
   const V va = d3 * d6 - d5 * d4;
   const V vb = d5 * d2 - d1 * d6;
   const V vc = d1 * d4 - d3 * d2;
+  const V terms =
+      ((size(d3 * d6) + size(d5 * d4)) + (size(d5 * d2) + size(d1 * d6))) + (size(d1 * d4) + size(d3 * d2));
   const V zero{};
   const M at_a = (d1 <= zero) & (d2 <= zero);
   const M at_b = (d3 >= zero) & (d4 <= d3);
@@ -142,6 +150,8 @@ template <typename V>
   feature = at_b ? M{} + 5 : feature;
   choose(at_a, a, nearest);
   feature = at_a ? M{} + 4 : feature;
+  const M open = ~(at_a | at_b | at_c) & ~(va + vb + vc > needle * terms);
+  math::store(math::load<M>(&block.needle[lane]) | open, &block.needle[lane]);
   const Vec<V> away = p - nearest;
   const V distance2 = dot(away, away);
 
@@ -276,6 +286,7 @@ void begin_search(PointBlock& block) {
   const auto to = static_cast<std::ptrdiff_t>(padded);
   std::fill(block.distance2_mm2.begin(), block.distance2_mm2.begin() + to,
             std::numeric_limits<double>::infinity());
+  std::fill(block.needle.begin(), block.needle.begin() + to, 0);
   std::fill(block.triangle.begin(), block.triangle.begin() + to, std::numeric_limits<std::int64_t>::max());
 }
 

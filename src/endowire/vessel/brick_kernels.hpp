@@ -19,6 +19,7 @@ struct alignas(32) PointBlock {
   Numbers nearest_x, nearest_y, nearest_z;
   Integers triangle;
   Integers feature;     ///< as in NearestPoint
+  Integers needle;      ///< not 0: a triangle was a needle from here; the answer is open
   Numbers height_mm;    ///< over the plane of the triangle's face
   Numbers distance_mm;  ///< positive inside
 };
@@ -42,7 +43,8 @@ struct KernelTriangle {
 /// Fills a block up to the next multiple of four with copies of its last point, and forgets what was found.
 void begin_search(PointBlock& block);
 
-/// Tries a triangle for every point of a block: exactly what nearest_on_triangle does, of equals the lowest triangle.
+/// Tries a triangle for every point of a block: exactly what nearest_on_triangle does, but for needles, which it only marks; of
+/// equals the lowest triangle.
 void try_triangle(const KernelTriangle& triangle, PointBlock& block);
 
 /// Distances, with the sign of the face's plane; where the feature is another, that is still to be put right.

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace endowire::vessel {
@@ -22,6 +23,38 @@ float overstated(double value) {
 
 constexpr std::size_t stack_size =
     128;  // a tree of 2³¹ triangles is at most 12 nodes deep, each leaves 7 parts behind
+
+}  // namespace
+
+namespace {
+
+/// Nearest point of the three sides of a triangle.
+double nearest_on_sides(const Vector3d& p, const std::array<const Vector3d*, 3>& corners, Vector3d& nearest,
+                        std::uint8_t& feature) {
+  double best2 = std::numeric_limits<double>::infinity();
+  for (std::uint8_t k = 0; k < 3; ++k) {
+    const auto next = static_cast<std::uint8_t>((k + 1) % 3);
+    const Vector3d& from = *corners[k];
+    const Vector3d side = *corners[next] - from;
+    const double along = side.dot(p - from);
+    const double whole = side.squaredNorm();
+    Vector3d q = from;
+    std::uint8_t f = 4 + k;
+    if (along >= whole && whole > 0.0) {
+      q = *corners[next];
+      f = 4 + next;
+    } else if (along > 0.0) {
+      q = from + (along / whole) * side;
+      f = 1 + k;
+    }
+    const double d2 = (p - q).squaredNorm();
+    if (d2 >= best2) continue;
+    best2 = d2;
+    nearest = q;
+    feature = f;
+  }
+  return best2;
+}
 
 }  // namespace
 
@@ -46,19 +79,23 @@ double nearest_on_triangle(const Vector3d& p, const Vector3d& a, const Vector3d&
   const double d5 = ab.dot(cp);
   const double d6 = ac.dot(cp);
   if (d6 >= 0.0 && d5 <= d6) return at_corner(c, 6);
+  const double va = d3 * d6 - d5 * d4;
+  const double vb = d5 * d2 - d1 * d6;
   const double vc = d1 * d4 - d3 * d2;
+  // What these are differences of.
+  const double terms = ((std::abs(d3 * d6) + std::abs(d5 * d4)) + (std::abs(d5 * d2) + std::abs(d1 * d6))) +
+                       (std::abs(d1 * d4) + std::abs(d3 * d2));
+  if (!(va + vb + vc > needle * terms)) return nearest_on_sides(p, {&a, &b, &c}, nearest, feature);
   if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
     nearest = a + (d1 / (d1 - d3)) * ab;
     feature = 1;
     return (p - nearest).squaredNorm();
   }
-  const double vb = d5 * d2 - d1 * d6;
   if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
     nearest = a + (d2 / (d2 - d6)) * ac;
     feature = 3;
     return (p - nearest).squaredNorm();
   }
-  const double va = d3 * d6 - d5 * d4;
   if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
     nearest = b + ((d4 - d3) / ((d4 - d3) + (d5 - d6))) * (c - b);
     feature = 2;

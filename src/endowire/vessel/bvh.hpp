@@ -12,6 +12,9 @@
 
 namespace endowire::vessel {
 
+/// A triangle whose double area squared is no larger a part than this of what it is computed from, seen from a point, is a needle there.
+inline constexpr double needle = 1e-10;
+
 /// The point of a triangle nearest to a query, and on which of its features it lies.
 struct NearestPoint {
   double distance_mm = std::numeric_limits<double>::infinity();
@@ -20,9 +23,11 @@ struct NearestPoint {
   std::uint8_t feature = 0;    ///< 0 face; 1, 2, 3 edge from corner 0, 1, 2; 4, 5, 6 corner 0, 1, 2
 };
 
-/// Nearest point of the triangle a b c, exact for degenerate triangles too.
+/// Nearest point of the triangle a b c.
 ///
-/// Source  C. Ericson, Real-Time Collision Detection, 2005, §5.1.5.
+/// Source  C. Ericson, Real-Time Collision Detection, 2005, §5.1.5: areas tell the region of the triangle's plane. Those of a triangle of
+///         height h seen from a distance D are differences of numbers (D/h)² as large. Where that leaves nothing of them, the nearest
+///         point of the sides is taken, no more than h²/8D further: for h < 2·10⁻⁵ D, 10⁻¹⁰ D.
 /// @return squared distance [mm²]; `nearest` and `feature` as in NearestPoint
 [[nodiscard]] double nearest_on_triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
                                          const Eigen::Vector3d& b, const Eigen::Vector3d& c,

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 using Index = std::int32_t;
 
-constexpr std::uint64_t algorithm_version = 1;  // part of the key: old caches die with a change of results
+constexpr std::uint64_t algorithm_version = 2;  // part of the key: old caches die with a change of results
 
 /// A piece of lumen counts when it has an opening, or this part of the largest piece's volume: less is debris
 /// of the mesh, or a corner the graph does not reach.

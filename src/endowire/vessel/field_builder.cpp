@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::uint64_t algorithm_version = 2;   // part of the key: old caches die with a change of results
+constexpr std::uint64_t algorithm_version = 3;   // part of the key: old caches die with a change of results
 constexpr double max_spacing_mm = 3.2;           // in the middle of wide lumens
 constexpr double base_spacing_limit_mm = 1.6;    // near walls; what error_target_mm needs comes on top
 constexpr double base_cells_per_radius = 2.5;    // so that every lumen is seen at all

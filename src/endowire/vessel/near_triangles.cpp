@@ -65,32 +65,35 @@ KernelTriangle NearTriangles::bounded(std::int32_t triangle) const {
 
 void NearTriangles::nearest(PointBlock& block) {
   if (block.count == 0) return;
-  const auto point = [&](std::size_t n) { return Vector3d(block.x[n], block.y[n], block.z[n]); };
-  if (!triangles_.empty()) {
+  const bool few_triangles = !triangles_.empty();
+  if (few_triangles) {
     begin_search(block);
     for (const KernelTriangle& triangle : triangles_) try_triangle(triangle, block);
     end_search(block);
-    for (std::size_t n = 0; n < block.count; ++n) {
-      if (block.feature[n] == 0) continue;
+  }
+  for (std::size_t n = 0; n < block.count; ++n) {
+    const Vector3d p(block.x[n], block.y[n], block.z[n]);
+    if (!few_triangles || block.needle[n] != 0) {
+      ask_tree(p, n, block);
+    } else if (block.feature[n] != 0) {
       const NearestPoint found{std::abs(block.distance_mm[n]),
                                Vector3d(block.nearest_x[n], block.nearest_y[n], block.nearest_z[n]),
                                static_cast<std::int32_t>(block.triangle[n]),
                                static_cast<std::uint8_t>(block.feature[n])};
-      block.distance_mm[n] = surface_->signed_at(point(n), found).distance_mm;
+      block.distance_mm[n] = surface_->signed_at(p, found).distance_mm;
     }
-    return;
   }
-  for (std::size_t n = 0; n < block.count; ++n) {
-    const Vector3d p = point(n);
-    const double within_mm = std::abs(surface_->at(p, {&last_, 1}).distance_mm);
-    const ExactSurface::Sample s = surface_->at(p, within_mm * (1.0 + slack_mm) + slack_mm);
-    last_ = s.triangle;
-    block.distance_mm[n] = s.distance_mm;
-    block.triangle[n] = s.triangle;
-    block.nearest_x[n] = s.nearest_mm.x();
-    block.nearest_y[n] = s.nearest_mm.y();
-    block.nearest_z[n] = s.nearest_mm.z();
-  }
+}
+
+void NearTriangles::ask_tree(const Vector3d& p, std::size_t n, PointBlock& block) {
+  const double within_mm = std::abs(surface_->at(p, {&last_, 1}).distance_mm);
+  const ExactSurface::Sample s = surface_->at(p, within_mm * (1.0 + slack_mm) + slack_mm);
+  last_ = s.triangle;
+  block.distance_mm[n] = s.distance_mm;
+  block.triangle[n] = s.triangle;
+  block.nearest_x[n] = s.nearest_mm.x();
+  block.nearest_y[n] = s.nearest_mm.y();
+  block.nearest_z[n] = s.nearest_mm.z();
 }
 
 }  // namespace endowire::vessel

@@ -29,11 +29,13 @@ class NearTriangles {
   /// @param middle  the surface nearest to its middle
   void turn_to(const Cube& cube, const ExactSurface::Sample& middle);
 
-  /// The surface nearest to the points of a block, which lie in the cube. `feature` and `height_mm` are of no use afterwards.
+  /// The surface nearest to the points of a block, which lie in the cube. `feature`, `needle` and `height_mm` are of no use afterwards.
   void nearest(PointBlock& block);
 
  private:
   [[nodiscard]] KernelTriangle bounded(std::int32_t triangle) const;
+  /// Answers for point n of a block.
+  void ask_tree(const Eigen::Vector3d& point_mm, std::size_t n, PointBlock& block);
 
   const ExactSurface* surface_;
   std::vector<KernelTriangle> triangles_;  ///< the first is nearest to the middle; empty where there are many

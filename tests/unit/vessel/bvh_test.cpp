@@ -139,6 +139,38 @@ TEST_P(Soups, ARayMeetsTheFirstOfAllTriangles) {
 
 INSTANTIATE_TEST_SUITE_P(OffTheOrigin, Soups, testing::Values(0.0, 3000.0));
 
+// A point of a triangle of height h is no further than h/2 from its sides, and the nearest one lies below the query: with d_s the distance
+// to the sides, d_s² − h²/4 ≤ d² ≤ d_s². Breaks where areas that rounding has eaten decide where on a needle the nearest point is.
+TEST(NearestOnTriangle, IsNoFurtherThanTheSidesAndHardlyNearerOnANeedle) {
+  std::mt19937 bits(11);
+  std::uniform_real_distribution<double> part(-1.0, 1.0);
+  const auto any = [&] { return Vector3d(part(bits), part(bits), part(bits)); };
+  const auto to_segment = [](const Vector3d& p, const Vector3d& a, const Vector3d& b) {
+    const double t = std::clamp((b - a).dot(p - a) / (b - a).squaredNorm(), 0.0, 1.0);
+    return (p - (a + t * (b - a))).norm();
+  };
+  for (int i = 0; i < 200'000; ++i) {
+    const double height_mm = std::pow(10.0, -12.0 * std::abs(part(bits)));
+    const Vector3d along = any().normalized();
+    const Vector3d across = along.cross(any()).normalized();
+    const Vector3d a = 20.0 * any();
+    const Vector3d b = a + 4.0 * along;
+    const Vector3d c = a + 4.0 * std::abs(part(bits)) * along + height_mm * across;
+    // Straight above it every second time: there areas vanish.
+    const Vector3d p = i % 2 == 0 ? Vector3d(a + std::pow(10.0, 2.0 * part(bits)) * any())
+                                  : Vector3d(a + 4.0 * std::abs(part(bits)) * along +
+                                             std::pow(10.0, 2.0 * part(bits)) * along.cross(across));
+    Vector3d q;
+    std::uint8_t feature = 0;
+    const double mm = std::sqrt(nearest_on_triangle(p, a, b, c, q, feature));
+    const double sides_mm = std::min({to_segment(p, a, b), to_segment(p, b, c), to_segment(p, c, a)});
+    ASSERT_LE(mm, sides_mm + 1e-9) << height_mm;
+    ASSERT_GE(mm * mm, sides_mm * sides_mm - 0.25 * height_mm * height_mm - 1e-9 * (1.0 + sides_mm))
+        << height_mm;
+    ASSERT_NEAR((p - q).norm(), mm, 1e-12);
+  }
+}
+
 TEST(Bvh, OfNothingFindsNothing) {
   const TriangleMesh mesh;
   const TriangleBvh bvh(mesh);
