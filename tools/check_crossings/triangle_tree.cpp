@@ -63,7 +63,22 @@ void SegmentHits::operator+=(const SegmentHits& other) {
   last = std::max(last, other.last);
 }
 
-/// Nearest point of a triangle by its Voronoi regions [Ericson2005 §5.1.5].
+/// Nearest point of a triangle's three sides.
+Vector3d nearest_on_sides(const Triangle& triangle, const Vector3d& p) {
+  Vector3d best = triangle[0];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3d& from = triangle[k];
+    const Vector3d side = triangle[(k + 1) % 3] - from;
+    const double whole = side.squaredNorm();
+    const Vector3d q =
+        whole > 0.0 ? Vector3d(from + std::clamp(side.dot(p - from) / whole, 0.0, 1.0) * side) : from;
+    if ((q - p).squaredNorm() < (best - p).squaredNorm()) best = q;
+  }
+  return best;
+}
+
+/// Nearest point of a triangle by its Voronoi regions [Ericson2005 §5.1.5]; of its sides where it is so narrow that rounding leaves nothing
+/// of the areas that tell the region.
 Vector3d nearest_on_triangle(const Triangle& triangle, const Vector3d& p) {
   const auto& [a, b, c] = triangle;
   const Vector3d ab = b - a;
@@ -74,19 +89,22 @@ Vector3d nearest_on_triangle(const Triangle& triangle, const Vector3d& p) {
   const double d3 = ab.dot(p - b);
   const double d4 = ac.dot(p - b);
   if (d3 >= 0.0 && d4 <= d3) return b;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 && d1 > d3) return a + d1 / (d1 - d3) * ab;
   const double d5 = ab.dot(p - c);
   const double d6 = ac.dot(p - c);
   if (d6 >= 0.0 && d5 <= d6) return c;
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 && d2 > d6) return a + d2 / (d2 - d6) * ac;
   const double va = d3 * d6 - d5 * d4;
+  const double vb = d5 * d2 - d1 * d6;
+  const double vc = d1 * d4 - d3 * d2;
+  const double sum = va + vb + vc;
+  const double terms = std::abs(d3 * d6) + std::abs(d5 * d4) + std::abs(d5 * d2) + std::abs(d1 * d6) +
+                       std::abs(d1 * d4) + std::abs(d3 * d2);
+  constexpr double narrow = 1e-10;
+  if (!(sum > narrow * terms)) return nearest_on_sides(triangle, p);
+  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return a + d1 / (d1 - d3) * ab;
+  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return a + d2 / (d2 - d6) * ac;
   const double to_c = d4 - d3;
   const double to_b = d5 - d6;
-  if (va <= 0.0 && to_c >= 0.0 && to_b >= 0.0 && to_c + to_b > 0.0) return b + to_c / (to_c + to_b) * (c - b);
-  const double sum = va + vb + vc;
-  if (sum == 0.0) return a;
+  if (va <= 0.0 && to_c >= 0.0 && to_b >= 0.0) return b + to_c / (to_c + to_b) * (c - b);
   return a + (vb * ab + vc * ac) / sum;
 }
 
