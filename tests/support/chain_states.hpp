@@ -38,28 +38,39 @@ inline rod::ChainShape straight_chain(const std::vector<double>& arcs, const Eig
   return shape;
 }
 
+/// The frames of an instrument on a chain moved by h·d: transported to the new tangents and spun.
+/// @param spin  place of the instrument's spin among the unknowns of a joint, `stride` of them
+inline void move_frames(const std::vector<Eigen::Vector3d>& joints_mm, const std::vector<double>& d, double h,
+                        std::size_t stride, std::size_t spin, rod::RodFrames& f) {
+  const rod::RodFrames old = f;
+  const std::size_t rods = old.frames.size();
+  for (std::size_t i = 0; i < rods; ++i) {
+    const Eigen::Vector3d e = (joints_mm[i] - joints_mm[i + 1]).normalized();
+    const rod::Frame& from = old.frames[i];
+    const double turn = h * d[stride * i + spin];
+    const Eigen::Vector3d m1 = math::normal_part(
+        math::spin_about(math::parallel_transport(from.col(0), from.col(2), e), e, turn), e);
+    f.frames[i].col(0) = m1;
+    f.frames[i].col(1) = e.cross(m1);
+    f.frames[i].col(2) = e;
+    f.spin_rad[i] += turn;
+  }
+  for (std::size_t j = 1; j < rods; ++j) {
+    const double turned = h * (d[stride * (j - 1) + spin] - d[stride * j + spin]);
+    f.twist_rad[j] = rod::twist_between(f.frames[j], f.frames[j - 1], old.twist_rad[j] + turned);
+  }
+}
+
 /// A chain moved along straight lines in its unknowns: joints by h·d, frames transported to the new tangents
 /// and spun by h·dθ. Along these curves the derivatives of a chain are defined.
 inline rod::ChainShape moved_chain(const rod::ChainShape& base, const std::vector<double>& d, double h) {
   rod::ChainShape out = base;
-  const auto rods = static_cast<std::size_t>(base.rods());
-  for (std::size_t i = 0; i <= rods; ++i)
-    out.joints_mm[i] += h * Eigen::Map<const Eigen::Vector3d>(d.data() + 4 * i);
-  for (std::size_t i = 0; i < rods; ++i) {
-    const Eigen::Vector3d e = (out.joints_mm[i] - out.joints_mm[i + 1]).normalized();
-    const rod::Frame& old = base.frames[i];
-    const double spin = h * d[4 * i + 3];
-    const Eigen::Vector3d m1 =
-        math::normal_part(math::spin_about(math::parallel_transport(old.col(0), old.col(2), e), e, spin), e);
-    out.frames[i].col(0) = m1;
-    out.frames[i].col(1) = e.cross(m1);
-    out.frames[i].col(2) = e;
-    out.spin_rad[i] += spin;
-  }
-  for (std::size_t j = 1; j < rods; ++j) {
-    out.twist_rad[j] = rod::twist_between(out.frames[j], out.frames[j - 1],
-                                          base.twist_rad[j] + h * (d[4 * j - 1] - d[4 * j + 3]));
-  }
+  const auto stride = static_cast<std::size_t>(base.unknowns_per_joint());
+  for (std::size_t i = 0; i < out.joints_mm.size(); ++i)
+    out.joints_mm[i] += h * Eigen::Map<const Eigen::Vector3d>(d.data() + stride * i);
+  move_frames(out.joints_mm, d, h, stride, 3, out);
+  for (std::size_t k = 0; k < out.coaxial.size(); ++k)
+    move_frames(out.joints_mm, d, h, stride, 4 + k, out.coaxial[k]);
   return out;
 }
 

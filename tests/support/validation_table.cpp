@@ -111,7 +111,7 @@ std::string validation_document(const std::vector<Section>& sections) {
           "commands and shapes together. Not "
           "modelled: blood flow, motion of heart and\nbreath, motion of the vessel as a whole (its wall "
           "yields locally), inertia, loops that "
-          "touch each other, and, for now, coaxial instruments.\n";
+          "touch each other, and, for now, coaxial instruments in a vessel.\n";
   return text.str();
 }
 

@@ -10,17 +10,32 @@
 
 namespace endowire::rod {
 
-/// A chain of rods between joints, both numbered from the tip: rod i lies between joints i and i + 1.
-/// Unknowns of a chain are (x, y, z) of joint i and the spin of rod i, at 4i … 4i + 3.
-struct ChainShape {
-  std::vector<Eigen::Vector3d> joints_mm;
+/// How an instrument lies turned about the centreline of a chain.
+struct RodFrames {
   std::vector<Frame> frames;      ///< one per rod, third column towards the tip
   std::vector<double> spin_rad;   ///< unwrapped turn of each rod since it entered
   std::vector<double> twist_rad;  ///< unwrapped twist at each joint (those at the ends unused)
+};
+
+/// A chain of rods between joints, both numbered from the tip: rod i lies between joints i and i + 1.
+///
+/// Unknowns of a chain, in blocks of `unknowns_per_joint()`, are (x, y, z) of joint i and the spins of rod i: of the instrument that
+/// reaches to the tip, then of each that shares its centreline.
+struct ChainShape : RodFrames {
+  std::vector<Eigen::Vector3d> joints_mm;
+  std::vector<RodFrames>
+      coaxial;  ///< instruments within or around the one that reaches to the tip: see coaxial.hpp
 
   [[nodiscard]] int rods() const { return static_cast<int>(frames.size()); }
+  [[nodiscard]] int unknowns_per_joint() const { return 4 + static_cast<int>(coaxial.size()); }
   void reserve(int rods);
   void resize(int rods);
+};
+
+/// What the joints of an instrument are made of that shares the centreline of another, to behind whose tip it reaches.
+struct CoaxialMaterial {
+  int first_joint = 1;                ///< the first that bends it; its tip is half a rod further
+  std::vector<JointMaterial> joints;  ///< of each joint; those before the first unused
 };
 
 /// What each rod and joint of a chain is made of.
@@ -31,6 +46,7 @@ struct ChainMaterial {
   std::vector<double> stretch_n_per_mm;  ///< EA/l of each rod; 0 for a rod held in the sheath
   std::vector<double>
       weight_n;  ///< weight less buoyancy of the half rods around each joint, per unit gravity
+  std::vector<CoaxialMaterial> coaxial;  ///< as many as in the shape
 
   [[nodiscard]] int rods() const { return static_cast<int>(length_mm.size()); }
   void reserve(int rods);
@@ -51,14 +67,17 @@ struct ImmersedWire {
   double gravity_m_per_s2 = 0.0;       ///< its magnitude
   double fluid_density_g_per_mm3 = 0.0;
 
+  /// Weight less buoyancy of a stretch.
+  [[nodiscard]] double weight_n(double from_mm, double to_mm) const;
   /// As fill_material(), for joints `first` … `last` and the rods next to them only, after arcs changed there.
   void fill(int first, int last, ChainMaterial& material) const;
 };
 
 /// Energy of bending, twist and stretch.
 ///
-///   E = Σ_joints joint_energy + Σ_rods (EA/2l)(|t| − l)²
+///   E = Σ_instruments Σ_joints joint_energy + Σ_rods (EA/2l)(|t| − l)²
 ///
+/// Each instrument keeps its own energy in its own frames: what they share is the centreline.
 /// The rods are rigid but for the physical compliance l/EA. Newton does not crawl on that stiffness because
 /// trial states keep the stretch that the linear step predicts: see retract().
 [[nodiscard]] double chain_energy(const ChainMaterial& material, const ChainShape& shape);
@@ -106,6 +125,7 @@ void geometric_force_n(const ChainMaterial& material, const ChainShape& shape,
 /// Along this curve the axial forces change linearly, as independent unknowns condensed out of the Newton matrix would, and
 /// curvature stays as smooth as the step is. (Restoring the lengths by the least motion of the joints instead,
 /// as constraint projection does, bends the chain at second order times n².)
+/// The frames of all instruments are carried along and turned by their own spins.
 /// @param tip_held  coordinates of the tip that must end where the linear step puts them; restored by turning the
 ///                  rods, most at the tip
 /// @return          false when a rod would turn too far: the step is too long

@@ -30,7 +30,7 @@ void ChainProblem::reserve(int rods, std::size_t samples) {
   trial_.reserve(rods);
   scratch_.reserve(rods);
   contact.reserve(rods, samples);
-  const auto unknowns = at(4 * (rods + 1));
+  const auto unknowns = at(unknowns_per_joint() * (rods + 1));
   held.reserve(unknowns);
   cartesian_.reserve(unknowns);
   contact_gradient_.reserve(unknowns);
@@ -41,23 +41,27 @@ void ChainProblem::reserve(int rods, std::size_t samples) {
 void ChainProblem::release_all() {
   held.assign(at(unknowns()), 0);
   const int n = shape.rods();
-  for (int c = 0; c < 4; ++c) held[at(4 * n + c)] = 1;
+  hold_joint(n, true, true, true);
+  for (int k = 0; k + 3 < unknowns_per_joint(); ++k) hold_spin(n, k);
+  for (std::size_t k = 0; k < material.coaxial.size(); ++k)
+    for (int i = 0; i + 1 < material.coaxial[k].first_joint; ++i) hold_spin(i, static_cast<int>(k) + 1);
 }
 
 void ChainProblem::hold_joint(int joint, bool x, bool y, bool z) {
-  held[at(4 * joint)] |= static_cast<char>(x);
-  held[at(4 * joint + 1)] |= static_cast<char>(y);
-  held[at(4 * joint + 2)] |= static_cast<char>(z);
+  char* fixed = held.data() + unknowns_per_joint() * joint;
+  fixed[0] |= static_cast<char>(x);
+  fixed[1] |= static_cast<char>(y);
+  fixed[2] |= static_cast<char>(z);
 }
 
-void ChainProblem::hold_spin(int rod) {
-  held[at(4 * rod + 3)] = 1;
+void ChainProblem::hold_spin(int rod, int instrument) {
+  held[at(unknowns_per_joint() * rod + 3 + instrument)] = 1;
 }
 
 void ChainProblem::clamp_hand_end() {
   const int n = shape.rods();
   hold_joint(n - 1, true, true, true);
-  hold_spin(n - 1);
+  for (int k = 0; k + 3 < unknowns_per_joint(); ++k) hold_spin(n - 1, k);
 }
 
 void ChainProblem::fit_entering(double inserted_mm) {
@@ -86,11 +90,12 @@ double ChainProblem::energy_mj() {
 
 double ChainProblem::add_loads(math::BandMatrix& hessian, std::vector<double>& gradient) const {
   const int n = shape.rods();
+  const int next = unknowns_per_joint();  // the first of joint 1
   double energy = 0.0;
   for (int j = 0; j <= n; ++j) {
     const Eigen::Vector3d weight = material.weight_n[at(j)] * loads.gravity_direction;
     energy -= weight.dot(shape.joints_mm[at(j)]);
-    for (int c = 0; c < 3; ++c) gradient[at(4 * j + c)] -= weight[c];
+    for (int c = 0; c < 3; ++c) gradient[at(next * j + c)] -= weight[c];
   }
   energy -= loads.tip_force_n.dot(shape.joints_mm[0]);
   for (int c = 0; c < 3; ++c) gradient[at(c)] -= loads.tip_force_n[c];
@@ -104,17 +109,19 @@ double ChainProblem::add_loads(math::BandMatrix& hessian, std::vector<double>& g
   const Eigen::Matrix3d h = m / (length * length) * (e * s.transpose() + s * e.transpose());
   for (int r = 0; r < 3; ++r) {
     gradient[at(r)] -= m * s[r] / length;
-    gradient[at(4 + r)] += m * s[r] / length;
+    gradient[at(next + r)] += m * s[r] / length;
     for (int c = 0; c <= r; ++c) {
       hessian.lower(r, c) += h(r, c);
-      hessian.lower(4 + r, 4 + c) += h(r, c);
+      hessian.lower(next + r, next + c) += h(r, c);
     }
-    for (int c = 0; c < 3; ++c) hessian.lower(4 + r, c) -= h(r, c);
+    for (int c = 0; c < 3; ++c) hessian.lower(next + r, c) -= h(r, c);
   }
   return energy - m * turn_about(loads.tip_moment_axis, e, moment_turn_);
 }
 
 double ChainProblem::linearise(math::BandMatrix& hessian, std::vector<double>& gradient) {
+  ENDOWIRE_EXPECTS(shape.coaxial.empty() || (!feed.active && contact.empty()),
+                   "a feed and walls know one instrument");
   if (feed.active) fit_entering(feed.inserted_mm);  // a trial that was not taken may have left its own length
   double energy = rod::add_joint_derivatives(material, shape, hessian, gradient);
   if (loads.tip_moment_n_mm != 0.0) {
@@ -221,15 +228,20 @@ void ChainProblem::measure_scales() {
                                                           material.stretch_n_per_mm[at(i)] *
                                                           shape.joints_mm[at(i)].cwiseAbs().maxCoeff());
   }
-  for (int j = 1; j < n; ++j) {
-    const rod::JointMaterial& joint = material.joints[at(j)];
-    const double chord =
-        (shape.frames[at(j)].col(2) - shape.frames[at(j - 1)].col(2)).norm();  // of the angle
-    const double bend = joint.bend_n_mm2.maxCoeff() * (chord + joint.rest_bend_rad.norm()) / joint.span_mm;
-    const double twist =
-        joint.twist_n_mm2 * std::abs(shape.twist_rad[at(j)] - joint.rest_twist_rad) / joint.span_mm;
-    scales_.moment_n_mm = std::max({scales_.moment_n_mm, bend, twist});
-  }
+  const auto measure = [&](const std::vector<rod::JointMaterial>& joints, int first,
+                           const rod::RodFrames& f) {
+    for (int j = first; j < n; ++j) {
+      const rod::JointMaterial& joint = joints[at(j)];
+      const double chord = (f.frames[at(j)].col(2) - f.frames[at(j - 1)].col(2)).norm();  // of the angle
+      const double bend = joint.bend_n_mm2.maxCoeff() * (chord + joint.rest_bend_rad.norm()) / joint.span_mm;
+      const double twist =
+          joint.twist_n_mm2 * std::abs(f.twist_rad[at(j)] - joint.rest_twist_rad) / joint.span_mm;
+      scales_.moment_n_mm = std::max({scales_.moment_n_mm, bend, twist});
+    }
+  };
+  measure(material.joints, 1, shape);
+  for (std::size_t k = 0; k < material.coaxial.size(); ++k)
+    measure(material.coaxial[k].joints, material.coaxial[k].first_joint, shape.coaxial[k]);
   for (const contact::Sample& s : contact.samples()) scales_.force_n = std::max(scales_.force_n, s.normal_n);
 }
 

@@ -27,7 +27,8 @@ struct Loads {
 ///
 ///   Π = bending + twist + stretch + gravity + loads + wall + friction (normal forces lagged) + grip
 ///
-/// This is the merit of the line search. Joint n is always held; `held` names further fixed unknowns.
+/// This is the merit of the line search. Joint n is always held; `held` names further fixed unknowns. Instruments that share the
+/// chain's centreline are held and turned each for itself; with such, the problem is one of statics: without feed and walls.
 class ChainProblem final : public solve::Problem {
  public:
   rod::ChainMaterial material;
@@ -36,21 +37,23 @@ class ChainProblem final : public solve::Problem {
   Feed feed;
   contact::ContactSet contact;
   const rod::MaterialLine* line = nullptr;  ///< needed by a feed: what enters the lumen
-  std::vector<char> held;                   ///< one per unknown: 4(n + 1)
+  std::vector<char> held;                   ///< one per unknown
   double region_mm = 1e9;                   ///< the base state may move this far from where detection saw it
 
   void reserve(int rods, std::size_t samples);
-  /// No unknown held but joint n.
+  /// No unknown held but joint n, and the spins of rods that an instrument does not reach.
   void release_all();
   void hold_joint(int joint, bool x, bool y, bool z);
-  void hold_spin(int rod);
-  /// Holds the last rod: a clamp at its middle.
+  /// @param instrument  0 for the one that reaches to the tip, then those of `shape.coaxial`
+  void hold_spin(int rod, int instrument = 0);
+  /// Holds the last rod, of all instruments: a clamp at its middle.
   void clamp_hand_end();
 
   /// Gives the entering rod its length, and what hangs on it, for a feed with so much wire inserted.
   void fit_entering(double inserted_mm);
 
-  [[nodiscard]] int unknowns() const override { return 4 * (shape.rods() + 1); }
+  [[nodiscard]] int unknowns() const override { return unknowns_per_joint() * (shape.rods() + 1); }
+  [[nodiscard]] int unknowns_per_joint() const override { return shape.unknowns_per_joint(); }
   double linearise(math::BandMatrix& hessian, std::vector<double>& gradient) override;
   solve::ContactPart add_contacts(const std::vector<double>& step, solve::ContactHessian kind,
                                   math::BandMatrix& hessian, std::vector<double>& gradient) override;
@@ -80,7 +83,6 @@ class ChainProblem final : public solve::Problem {
   [[nodiscard]] int feed_unknown() const { return feed.active ? 4 * (shape.rods() - 1) : -1; }
   void hold(math::BandMatrix& hessian, std::vector<double>& gradient) const;
   [[nodiscard]] contact::GuidedJoint guided() const;
-  void to_cartesian(const std::vector<double>& direction);
   void measure_scales();
 
   rod::ChainShape trial_;

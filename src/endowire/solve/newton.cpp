@@ -37,24 +37,30 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-void Newton::reserve(int unknowns) {
-  for (auto* m : {&hessian_, &matrix_}) m->reserve(unknowns);
+void Newton::reserve(int unknowns, int unknowns_per_joint) {
+  for (auto* m : {&hessian_, &matrix_}) m->reserve(unknowns, unknowns_per_joint);
   for (auto* v : {&gradient_, &model_gradient_, &direction_, &round_, &product_, &best_, &kept_})
     v->reserve(static_cast<std::size_t>(unknowns));
 }
 
-void Newton::resize(int unknowns) {
-  hessian_.resize(unknowns);
+void Newton::resize(const Problem& problem) {
+  const int unknowns = problem.unknowns();
+  hessian_.resize(unknowns, problem.unknowns_per_joint());
   for (auto* v : {&gradient_, &model_gradient_, &direction_, &round_, &product_, &best_, &kept_})
     v->resize(static_cast<std::size_t>(unknowns));
 }
 
-Newton::Norms Newton::norms(const std::vector<double>& v) {
+Newton::Norms Newton::norms(const std::vector<double>& v) const {
+  const auto per_joint = static_cast<std::size_t>(hessian_.block());
   Norms n{0.0, 0.0};
-  for (std::size_t i = 0; i + 3 < v.size(); i += 4) {
+  for (std::size_t i = 0; i + per_joint <= v.size(); i += per_joint) {
     n.position = std::max(n.position, v[i] * v[i] + v[i + 1] * v[i + 1] + v[i + 2] * v[i + 2]);
-    n.turn = std::max(n.turn, std::abs(v[i + 3]));
-    if (!std::isfinite(v[i] + v[i + 1] + v[i + 2] + v[i + 3])) return {HUGE_VAL, HUGE_VAL};
+    double sum = v[i] + v[i + 1] + v[i + 2];
+    for (std::size_t k = 3; k < per_joint; ++k) {
+      n.turn = std::max(n.turn, std::abs(v[i + k]));
+      sum += v[i + k];
+    }
+    if (!std::isfinite(sum)) return {HUGE_VAL, HUGE_VAL};
   }
   n.position = std::sqrt(n.position);
   return n;
@@ -68,7 +74,7 @@ double Newton::linearise(Problem& problem) {
 }
 
 int Newton::inertia(Problem& problem) {
-  resize(problem.unknowns());
+  resize(problem);
   linearise(problem);
   std::fill(direction_.begin(), direction_.end(), 0.0);
   static_cast<void>(model_at_direction(problem, 0.0, ContactHessian::present));
@@ -260,7 +266,7 @@ bool Newton::small_residual(const Problem& problem, const NewtonSpec& spec, Solv
 }
 
 SolveReport Newton::minimise(Problem& problem, const NewtonSpec& spec) {
-  resize(problem.unknowns());
+  resize(problem);
   SolveReport report;
   double trust_mm = spec.max_step_mm;
   last_weight_ = 0.0;

@@ -42,12 +42,14 @@ enum class ContactHessian {
 ///   model(d) = gᵀd + ½ dᵀ H d + C(d) − C(0) − ∇C(0)ᵀd,   g the whole gradient at the base state
 ///
 /// H is the Hessian of everything smooth; C, convex, holds what opens and closes, sticks and slides: contacts. Unknowns come
-/// in blocks of four, x, y, z [mm] and a turn [rad]; gradients are forces [N] and moments [N·mm]. Some quantities (the
-/// normal forces that limit friction) are *lagged*: constant while the merit is minimised, renewed by `renew_lagged`.
+/// in one block per joint, x, y, z [mm] and a turn [rad] for each instrument; gradients are forces [N] and moments [N·mm]. Some
+/// quantities (the normal forces that limit friction) are *lagged*: constant while the merit is minimised, renewed by `renew_lagged`.
 class Problem {
  public:
   virtual ~Problem() = default;
   [[nodiscard]] virtual int unknowns() const = 0;
+  /// Of a joint: three coordinates, and the turns.
+  [[nodiscard]] virtual int unknowns_per_joint() const { return math::BandMatrix::kBlock; }
   /// Merit and its gradient at the base state, and the Hessian of all but the contacts; fixed unknowns have zero gradient
   /// and an identity row.
   virtual double linearise(math::BandMatrix& hessian, std::vector<double>& gradient) = 0;
@@ -112,7 +114,7 @@ struct NewtonSpec {
 ///        lag_tolerance of their present values, and the problem holds.
 class Newton {
  public:
-  void reserve(int unknowns);
+  void reserve(int unknowns, int unknowns_per_joint = math::BandMatrix::kBlock);
   SolveReport minimise(Problem& problem, const NewtonSpec& spec);
   /// Negative eigenvalues of the Hessian, contacts included, at the problem's base state.
   int inertia(Problem& problem);
@@ -128,8 +130,8 @@ class Newton {
     double alpha = 0.0;
     double share = 0.0;  ///< of the first α tried: what trust and turn allowed
   };
-  [[nodiscard]] static Norms norms(const std::vector<double>& v);
-  void resize(int unknowns);
+  [[nodiscard]] Norms norms(const std::vector<double>& v) const;
+  void resize(const Problem& problem);
   double linearise(Problem& problem);
   ContactPart model_at_direction(Problem& problem, double lambda, ContactHessian kind);
   bool solve_round(double lambda, SolveReport& report);

@@ -28,6 +28,9 @@ inline constexpr int kLocalisedRods = 400;
 [[nodiscard]] Checks insertion_into_a_torus();          // V11
 [[nodiscard]] Checks curved_tip_at_a_wall();            // V12
 [[nodiscard]] Checks three_point_bend(int rods);        // V13
+[[nodiscard]] Checks coaxial_instruments(int rods);     // V14
+[[nodiscard]] Checks coaxial_stiff_in_torsion();        // V14
+[[nodiscard]] Checks coaxial_snap();                    // V14
 [[nodiscard]] Checks analytic_fields();                 // V15
 [[nodiscard]] Checks faceted_vessels();                 // V15
 [[nodiscard]] Checks internal_balance();                // V16

@@ -20,6 +20,7 @@ namespace endowire::test {
 [[nodiscard]] Figure torus_figure();             // V11
 [[nodiscard]] Figure curved_tip_figure();        // V12
 [[nodiscard]] Figure three_point_bend_figure();  // V13
+[[nodiscard]] Figure coaxial_figure();           // V14
 [[nodiscard]] Figure facets_figure();            // V15
 [[nodiscard]] Figure refinement_figure();        // V16
 [[nodiscard]] Figure step_size_figure();         // V16

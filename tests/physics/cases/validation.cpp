@@ -113,14 +113,16 @@ void add_contact(std::vector<Section>& sections) {
 }
 
 void add_fields_and_invariance(std::vector<Section>& sections) {
-  sections.push_back({"V14 Coaxial instruments",
-                      "Not simulated: the simulator moves one wire. Instruments within each other are a "
-                      "later part, and so is "
-                      "this test: shared curvature Σ(EI κ0)/ΣEI, stiffnesses that add, and the torque "
-                      "between two rest curves turned "
-                      "against each other.",
-                      {},
-                      {}});
+  sections.push_back(
+      {"V14 Coaxial instruments",
+       "A wire and a catheter around it, EI = 10 and 30 N·mm², on one centreline, each with "
+       "its own frames and rest curvature; clamped at the hands, without friction on each other. "
+       "Turned against each other by α they pull back: "
+       "c = B₁B₂/(B₁ + B₂) κ̄₁κ̄₂ (1/C₁ + 1/C₂), B in bending, C in torsion. From L√c = ½π the hands "
+       "cannot turn them by 180°: the tip snaps round. A problem of statics: the simulator itself "
+       "moves one instrument in a vessel.",
+       {coaxial_figure()},
+       together({with_order(coaxial_instruments, kRods), coaxial_stiff_in_torsion(), coaxial_snap()})});
   sections.push_back({"V15 Distance field",
                       "Analytic fields at 2000 places; those of meshes at all of 20 000 places that lie "
                       "within 1 mm of the wall, "

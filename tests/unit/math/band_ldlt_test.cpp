@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <tuple>
 
 #include "support/frames.hpp"
 
@@ -19,14 +20,14 @@ struct Pair {
   MatrixXd dense;
 };
 
-Pair random_band(int size, test::Random& random, double diagonal) {
+Pair random_band(int size, test::Random& random, double diagonal, int block = BandMatrix::kBlock) {
   Pair p;
-  p.band.resize(size);
+  p.band.resize(size, block);
   p.band.set_zero();
   p.dense = MatrixXd::Zero(size, size);
   for (int r = 0; r < size; ++r) {
     for (int c = 0; c <= r; ++c) {
-      if (!BandMatrix::holds(r, c)) continue;
+      if (!p.band.holds(r, c)) continue;
       const double value = random.normal() + (r == c ? diagonal : 0.0);
       p.band.add(c, r, value);  // the upper place of the pair: add() must find the lower one
       p.dense(r, c) = p.dense(c, r) = value;
@@ -45,14 +46,19 @@ Eigen::Map<const VectorXd> view(const std::vector<double>& v) {
   return {v.data(), static_cast<Eigen::Index>(v.size())};
 }
 
-class Sizes : public testing::TestWithParam<int> {};
+/// Unknowns, and how many of them a joint has: 4 for one instrument, more for several on one centreline.
+class Sizes : public testing::TestWithParam<std::tuple<int, int>> {
+ protected:
+  [[nodiscard]] static int size() { return std::get<0>(GetParam()); }
+  [[nodiscard]] static int block() { return std::get<1>(GetParam()); }
+};
 
 // Breaks with any wrong index at the borders of the band or of the matrix, which the sizes around the width reach.
 TEST_P(Sizes, SolvesPositiveDefiniteSystemsAsEigenDoes) {
-  test::Random random(static_cast<std::uint64_t>(100 + GetParam()));
+  test::Random random(static_cast<std::uint64_t>(100 + size()));
   for (int trial = 0; trial < 10; ++trial) {
-    const int n = GetParam();
-    Pair p = random_band(n, random, 40.0);
+    const int n = size();
+    Pair p = random_band(n, random, 40.0, block());
     ASSERT_GT(p.dense.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0.0);
     EXPECT_EQ(p.band.factorise(), 0);
     std::vector<double> x = random_vector(n, random);
@@ -65,9 +71,9 @@ TEST_P(Sizes, SolvesPositiveDefiniteSystemsAsEigenDoes) {
 
 // Breaks with a transposed or doubled entry.
 TEST_P(Sizes, MultipliesAsEigenDoes) {
-  test::Random random(static_cast<std::uint64_t>(200 + GetParam()));
-  Pair p = random_band(GetParam(), random, 0.0);
-  const std::vector<double> x = random_vector(GetParam(), random);
+  test::Random random(static_cast<std::uint64_t>(200 + size()));
+  Pair p = random_band(size(), random, 0.0, block());
+  const std::vector<double> x = random_vector(size(), random);
   std::vector<double> y(x.size(), 77.0);  // must be overwritten
   p.band.multiply(x, y);
   const VectorXd exact = p.dense * view(x);
@@ -77,10 +83,10 @@ TEST_P(Sizes, MultipliesAsEigenDoes) {
 // Sylvester: pivots count the negative eigenvalues. Breaks when a pivot's sign is lost; Newton would then walk to a
 // saddle.
 TEST_P(Sizes, CountsNegativeEigenvalues) {
-  test::Random random(static_cast<std::uint64_t>(300 + GetParam()));
+  test::Random random(static_cast<std::uint64_t>(300 + size()));
   int indefinite = 0;
   for (int trial = 0; trial < 20; ++trial) {
-    Pair p = random_band(GetParam(), random, random.uniform(-3.0, 12.0));
+    Pair p = random_band(size(), random, random.uniform(-3.0, 12.0), block());
     const VectorXd eigenvalues = p.dense.selfadjointView<Eigen::Lower>().eigenvalues();
     const auto negative = static_cast<int>((eigenvalues.array() < 0.0).count());
     const auto pivots = [&](double shift) {
@@ -88,7 +94,7 @@ TEST_P(Sizes, CountsNegativeEigenvalues) {
       return copy.factorise(shift);
     };
     EXPECT_EQ(pivots(0.0), negative);
-    indefinite += negative > 0 && negative < GetParam();
+    indefinite += negative > 0 && negative < size();
     // The shift moves every eigenvalue: above the smallest one the matrix is definite, below it is not.
     const double lowest = eigenvalues.minCoeff();
     EXPECT_EQ(pivots(std::abs(lowest) + 1e-3), 0);
@@ -96,17 +102,17 @@ TEST_P(Sizes, CountsNegativeEigenvalues) {
       EXPECT_GE(pivots(-lowest - 1e-3), 1);
     }
   }
-  if (GetParam() > 2) {
+  if (size() > 2) {
     EXPECT_GT(indefinite, 3) << "the trials were all definite: nothing was tested";
   }
 }
 
 // Breaks when the fixed unknown still couples on either side.
 TEST_P(Sizes, FixMakesAnIdentityRow) {
-  test::Random random(static_cast<std::uint64_t>(400 + GetParam()));
-  const int n = GetParam();
+  test::Random random(static_cast<std::uint64_t>(400 + size()));
+  const int n = size();
   for (const int index : {0, n / 2, n - 1}) {
-    Pair p = random_band(n, random, 40.0);
+    Pair p = random_band(n, random, 40.0, block());
     p.band.fix(index);
     p.dense.row(index).setZero();
     p.dense.col(index).setZero();
@@ -121,7 +127,29 @@ TEST_P(Sizes, FixMakesAnIdentityRow) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Sizes, testing::Values(1, 2, 4, 7, 8, 10, 11, 12, 13, 44, 120));
+INSTANTIATE_TEST_SUITE_P(All, Sizes,
+                         testing::Combine(testing::Values(1, 2, 4, 7, 8, 10, 11, 12, 13, 44, 120),
+                                          testing::Values(4, 5, 7)));
+
+// Breaks when a matrix that changes its block keeps places of the old one.
+TEST(BandMatrix, TakesAnotherBlockAnew) {
+  test::Random random(600);
+  BandMatrix m;
+  for (const int block : {4, 6, 5, 4}) {
+    const int n = 5 * block;
+    Pair p = random_band(n, random, 40.0, block);
+    m.resize(n, block);
+    m.set_zero();
+    for (int r = 0; r < n; ++r)
+      for (int c = 0; c <= r; ++c)
+        if (m.holds(r, c)) m.lower(r, c) = p.dense(r, c);
+    std::vector<double> x = random_vector(n, random);
+    const VectorXd exact = p.dense.llt().solve(view(x));
+    EXPECT_EQ(m.factorise(), 0);
+    m.solve(x);
+    EXPECT_LT((view(x) - exact).norm(), 1e-12 * exact.norm()) << block;
+  }
+}
 
 // A rod is a million times stiffer along its axis than across: the residual must stay at rounding of the large part.
 TEST(BandMatrix, SolvesBadlyScaledChains) {
