@@ -83,6 +83,7 @@ class Simulation::Impl {
   void detect_again();
   void keep_waypoint();
   [[nodiscard]] bool tip_cuts_corner(const Command& command) const;
+  [[nodiscard]] bool leg_of_snap_cuts_corner(int attempt) const;
   void adapt_rods();
   void finish(const Command& command);
   void measure();
@@ -295,7 +296,8 @@ const StepReport& Simulation::Impl::step(const Command& command) {
 bool Simulation::Impl::advance(const Command& command, int split) {
   const int attempt = ++attempts_;
   const bool divisible = command.advance_mm != 0.0 || command.torque_rad != 0.0;
-  if (advance_once(command) && (!divisible || split >= kCornerSplits || !tip_cuts_corner(command))) {
+  if (advance_once(command) && (!divisible || split >= kCornerSplits ||
+                                !(tip_cuts_corner(command) || leg_of_snap_cuts_corner(attempt)))) {
     finish(command);
     return true;
   }
@@ -424,6 +426,16 @@ bool Simulation::Impl::tip_cuts_corner(const Command& command) const {
   return !in_sheath() && !state_.joints_mm.empty() &&
          cuts_corner(*field_, state_.joints_mm[0], problem_.shape.joints_mm[0], line_.radius_mm(0.0),
                      command.advance_mm);
+}
+
+/// Of the legs of a snap the first is longer the further the hand moves: halving the command shortens it.
+bool Simulation::Impl::leg_of_snap_cuts_corner(int attempt) const {
+  const Waypoints::Shape* first = waypoints_.first_of(attempt);
+  if (first == nullptr || state_.arc_mm.empty()) return false;
+  // Up to the rod that enters, which comes straight from the sheath.
+  return leg_cuts_corner(*field_, line_,
+                         {state_.joints_mm.data(), state_.arc_mm.data(), state_.arc_mm.size()},
+                         {waypoints_.joints_mm(*first), waypoints_.arc_mm(*first), first->joints - 2});
 }
 
 /// Keeps the present shape, on its way to equilibrium, if the wire has moved since the last one kept and lies clear.

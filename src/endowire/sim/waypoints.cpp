@@ -34,6 +34,12 @@ void Waypoints::forget(int attempt) {
   }
 }
 
+const Waypoints::Shape* Waypoints::first_of(int attempt) const {
+  const auto found = std::find_if(shapes_.begin(), shapes_.end(),
+                                  [attempt](const Shape& shape) { return shape.attempt == attempt; });
+  return found == shapes_.end() ? nullptr : &*found;
+}
+
 const Eigen::Vector3d* Waypoints::last_mm(std::size_t joints) const {
   if (shapes_.empty() || shapes_.back().joints != joints) return nullptr;
   return joints_mm(shapes_.back());

@@ -29,6 +29,8 @@ class Waypoints {
   /// Forgets the shapes of a sub-step that failed, the last one.
   void forget(int attempt);
 
+  /// The first shape that the wire passed in a sub-step; null when it passed none.
+  [[nodiscard]] const Shape* first_of(int attempt) const;
   [[nodiscard]] int size() const { return static_cast<int>(shapes_.size()); }
   [[nodiscard]] const Shape& shape(int index) const { return shapes_.at(static_cast<std::size_t>(index)); }
   [[nodiscard]] const Eigen::Vector3d* joints_mm(const Shape& shape) const {

@@ -46,6 +46,18 @@ TEST(Waypoints, ALongWayIsThinnedEvenly) {
   EXPECT_TRUE(ways.far_enough(0.5));
 }
 
+TEST(Waypoints, TheFirstOfASubStep) {
+  Waypoints ways;
+  ways.reserve(3);
+  EXPECT_EQ(ways.first_of(1), nullptr);
+  ways.keep(joints_at(1.0), arcs_at(1.0), 1);
+  ways.keep(joints_at(2.0), arcs_at(2.0), 3);
+  ways.keep(joints_at(3.0), arcs_at(3.0), 3);
+  ASSERT_NE(ways.first_of(3), nullptr);
+  EXPECT_EQ(ways.joints_mm(*ways.first_of(3))->x(), 2.0);
+  EXPECT_EQ(ways.first_of(2), nullptr);
+}
+
 // Breaks when pieces of a long command are kept as if there were few: the first of them end up far apart.
 TEST(Waypoints, PiecesOfALongCommandAreThinnedEvenly) {
   constexpr int kPieces = 3000;
